@@ -1,0 +1,1 @@
+"""Offline finite-element training of the wire-cutting surrogates."""

@@ -1,0 +1,1 @@
+"""Cutting forces, regimes and material identification for wire cutting of soft solids."""
