@@ -1,0 +1,19 @@
+"""The errors that this library raises on purpose; catch `WirecutError` for all of them."""
+
+__all__ = ["DomainError", "InputError", "UnknownModelError", "WirecutError"]
+
+
+class WirecutError(Exception):
+    """Base class of every error that this library raises on purpose."""
+
+
+class InputError(WirecutError, ValueError):
+    """An argument that no formula here can use; the message names it, its value and a remedy."""
+
+
+class DomainError(InputError):
+    """An admissible value at which the formula asked for has no answer."""
+
+
+class UnknownModelError(InputError):
+    """A model name that is not registered; the message lists those that are."""

@@ -1,0 +1,179 @@
+"""The one home of input validation: any input becomes a Python float or a float64 array.
+
+Accepted are real numbers and whatever numpy reads as an array of integers or floats.
+Scalars and 0-d arrays become Python floats, everything else a float64 array, which is the
+caller's own array wherever that already is one. Refused, with an `InputError`, are booleans,
+text, None, complex numbers, objects, masked arrays, ragged lists, nan, and numbers outside
+the range of the quantity, infinity included unless the quantity allows it.
+
+Every message has one shape: what must hold, where it does not and with which number and
+unit, and the remedy.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.errors import InputError
+
+__all__ = [
+    "FRICTION_COEFFICIENT",
+    "LARGEST",
+    "SHEAR_MODULUS",
+    "SMALLEST",
+    "STIFFENING_EXPONENT",
+    "TOUGHNESS",
+    "WEAR_STRENGTH",
+    "WIRE_RADIUS",
+    "WORK_OF_FRACTURE",
+    "FloatOrArray",
+    "Quantity",
+    "broadcast_shape",
+]
+
+FloatOrArray: TypeAlias = "float | NDArray[np.float64]"
+
+LARGEST = sys.float_info.max
+SMALLEST = 5e-324  # a lower bound of SMALLEST reads as "positive"
+INFINITY = float("inf")
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A named physical quantity with its unit, the range it may take, and what to do otherwise.
+
+    The bounds are inclusive; nan is never inside.
+
+    Examples
+    --------
+    >>> width = Quantity("width", "m", "give the width in metres", lower=SMALLEST)
+    >>> width.checked(2)
+    2.0
+    >>> width.checked([0.5, -3.0])
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: width must be finite and positive, but width[1] = -3.0 m \
+(1 of 2 values); give the width in metres.
+    """
+
+    name: str
+    unit: str
+    remedy: str
+    lower: float = 0.0
+    upper: float = LARGEST
+    error: type[InputError] = InputError
+
+    def checked(self, value: object) -> FloatOrArray:
+        """Return `value` as a float or a float64 array, or raise an error that says why not."""
+        if type(value) is not float:
+            converted = self._converted(value)
+            if not isinstance(converted, float):
+                return self._checked_array(converted)
+            value = converted
+        if not self.lower <= value <= self.upper:
+            raise self._out_of_range(f"{self.name} = {value!r}", "")
+        return value
+
+    def _converted(self, value: object) -> FloatOrArray:
+        """Return `value` as a float or a float64 array, whatever its numbers."""
+        array = _plain_array(value)
+        if array is None or array.dtype.kind not in "iuf":
+            raise self._refused(value, array)
+        with np.errstate(all="ignore"):  # a wider float may overflow: infinity tells
+            array = array.astype(np.float64, copy=False)
+        return float(array) if array.ndim == 0 else array
+
+    def _checked_array(self, array: NDArray[np.float64]) -> NDArray[np.float64]:
+        # Extrema carry nan along and need no full-size temporary.
+        if array.size and not (self.lower <= array.min() and array.max() <= self.upper):
+            outside = ~((array >= self.lower) & (array <= self.upper))
+            index = tuple(int(i) for i in np.argwhere(outside)[0])
+            place = ", ".join(map(str, index))
+            raise self._out_of_range(
+                f"{self.name}[{place}] = {float(array[index])!r}",
+                f" ({np.count_nonzero(outside)} of {array.size} values)",
+            )
+        return array
+
+    def _out_of_range(self, what: str, how_many: str) -> InputError:
+        unit = f" {self.unit}" if self.unit else ""
+        return self.error(
+            f"{self.name} must be {self._range()}, but {what}{unit}{how_many}; {self.remedy}."
+        )
+
+    def _refused(self, value: object, array: NDArray[Any] | None) -> InputError:
+        kind = type(value).__name__
+        if array is not None and array.ndim:
+            kind += f" of {array.dtype}"
+        shown = repr(value)
+        if len(shown) > 60:
+            shown = shown[:57] + "..."
+        return InputError(
+            f"{self.name} must be a real number or an array of real numbers, "
+            f"but {self.name} = {shown} ({kind}); {self.remedy}."
+        )
+
+    def _range(self) -> str:
+        limits = []
+        if self.upper < INFINITY:
+            limits.append("finite" if self.upper == LARGEST else f"at most {self.upper:g}")
+        if self.lower > -LARGEST:
+            names = {0.0: "not negative", SMALLEST: "positive"}
+            limits.append(names.get(self.lower, f"at least {self.lower:g}"))
+        return " and ".join(limits) or "a number"
+
+
+def _plain_array(value: object) -> NDArray[Any] | None:
+    """Return `value` as numpy reads it, or None where it reads no plain array."""
+    if hasattr(value, "mask"):  # a masked array: its hidden entries have no value to use
+        return None
+    try:
+        return np.asarray(value)
+    except (ValueError, TypeError, OverflowError):  # ragged lists
+        return None
+
+
+def broadcast_shape(names: tuple[str, ...], values: tuple[FloatOrArray, ...]) -> tuple[int, ...]:
+    """Return the common shape of checked values, or raise an `InputError` that names the shapes.
+
+    Examples
+    --------
+    >>> broadcast_shape(("x", "y"), (1.0, np.zeros(3)))
+    (3,)
+    """
+    shapes = [() if isinstance(value, float) else value.shape for value in values]
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        listed = ", ".join(f"{n} {s}" for n, s in zip(names, shapes, strict=True) if s)
+        raise InputError(
+            f"arguments must broadcast together, but their shapes are {listed}; "
+            "give arrays of one shape, or insert axes of length 1."
+        ) from None
+
+
+SHEAR_MODULUS = Quantity("shear_modulus", "Pa", "give the small-strain shear modulus in pascals")
+TOUGHNESS = Quantity("toughness", "J/m^2", "give the cleavage toughness in joules a square metre")
+WIRE_RADIUS = Quantity("wire_radius", "m", "give the radius of the wire in metres")
+FRICTION_COEFFICIENT = Quantity(
+    "friction_coefficient", "", "give 0 where friction is to be neglected"
+)
+WEAR_STRENGTH = Quantity(
+    "wear_strength", "Pa", "give the shear strength in pascals, or 0 where wear is to be neglected"
+)
+STIFFENING_EXPONENT = Quantity(
+    "stiffening_exponent",
+    "",
+    "give the Ogden exponent alpha, which is 2 for a neo-Hookean solid",
+    lower=SMALLEST,
+)
+WORK_OF_FRACTURE = Quantity(
+    "work_of_fracture",
+    "J/m^3",
+    "give the strain energy density at tensile failure in joules a cubic metre",
+)
