@@ -1,0 +1,345 @@
+"""Measurements and material properties out of files whose names carry the units."""
+
+from __future__ import annotations
+
+import json
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.errors import InputError
+from surrogate.units import (
+    ENERGY_DENSITY,
+    LENGTH,
+    LINE_FORCE,
+    NUMBER,
+    STRESS,
+    TOUGHNESS,
+    Dimension,
+    parse_number,
+)
+
+_LONGEST_LINE = 10_000
+_LARGEST_MATERIAL_FILE = 100_000
+_MATERIAL_SCHEMA = "wirecut-material-1"
+
+COLUMNS: dict[str, Dimension] = {
+    "wire_radius": LENGTH,
+    "wire_diameter": LENGTH,
+    "force_per_thickness": LINE_FORCE,
+    "force_std": LINE_FORCE,
+}
+"""Quantities that a table of measurements may hold, one column each."""
+
+PROPERTIES: dict[str, Dimension] = {
+    "shear_modulus": STRESS,
+    "shear_modulus_std": STRESS,
+    "pure_shear_toughness": TOUGHNESS,
+    "pure_shear_toughness_std": TOUGHNESS,
+    "work_of_fracture": ENERGY_DENSITY,
+    "work_of_fracture_std": ENERGY_DENSITY,
+    "friction_coefficient": NUMBER,
+    "stiffening_exponent": NUMBER,
+}
+"""Quantities that a file of material properties may hold."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measurements:
+    """Steady-state cutting forces measured with wires of several radii.
+
+    Parameters
+    ----------
+    wire_radius : ndarray, shape (n,)
+        R_w [m].
+    force : ndarray, shape (n,)
+        F_ss/T [N/m].
+    force_std : ndarray, shape (n,), or None
+        Standard error of each force [N/m].
+    """
+
+    wire_radius: NDArray[np.float64]
+    force: NDArray[np.float64]
+    force_std: NDArray[np.float64] | None = None
+
+
+@dataclass(frozen=True)
+class Material:
+    """Properties of a gel measured by other tests than cutting; None where not measured.
+
+    Parameters
+    ----------
+    shear_modulus, shear_modulus_std : float or None
+        mu and its standard error [Pa].
+    pure_shear_toughness, pure_shear_toughness_std : float or None
+        Gamma from a fracture test, cleavage and process zone together [J/m2].
+    work_of_fracture, work_of_fracture_std : float or None
+        W_f, energy density at failure in uniaxial tension [J/m3].
+    friction_coefficient : float or None
+        xi [-].
+    stiffening_exponent : float or None
+        alpha of the Ogden solid, Eq. (1) [-].
+    """
+
+    shear_modulus: float | None = None
+    shear_modulus_std: float | None = None
+    pure_shear_toughness: float | None = None
+    pure_shear_toughness_std: float | None = None
+    work_of_fracture: float | None = None
+    work_of_fracture_std: float | None = None
+    friction_coefficient: float | None = None
+    stiffening_exponent: float | None = None
+
+
+def read_measurements(path: str | PathLike[str]) -> Measurements:
+    """Read a table of measurements from a CSV file.
+
+    The header names quantity and unit of each column: ``wire_radius_<unit>`` or
+    ``wire_diameter_<unit>`` (one of the two; m, cm, mm, um), ``force_per_thickness_<unit>``
+    and, where known, its standard error ``force_std_<unit>`` (N_per_m, mN_per_m, kN_per_m,
+    N_per_cm, N_per_mm, mN_per_mm, J_per_m2, ...). Values are separated by commas and are
+    positive numbers with a decimal point. Lines that are empty or start with ``#`` are skipped.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file, UTF-8 text with or without a byte-order mark.
+
+    Returns
+    -------
+    Measurements
+        The columns in SI units, a diameter as the radius that it names.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or anything in it is missing, twice there, unknown or not a
+        positive number; the message names file, line and column and says what to mend.
+
+    Examples
+    --------
+    >>> from surrogate.paths import model_file
+    >>> measurements = read_measurements(model_file("paam-wire-cutting.csv"))
+    >>> print(measurements.wire_radius)
+    [0.000125 0.00021  0.000275 0.00039  0.00047 ]
+    >>> print(measurements.force)
+    [ 5.475  8.11  10.125 13.69  16.17 ]
+    """
+    file = fspath(path)
+    with _opened(file) as stream:
+        columns = _read_table(file, stream)
+    radius = columns.get("wire_radius")
+    if radius is None:
+        radius = columns["wire_diameter"] / 2.0
+    return Measurements(radius, columns["force_per_thickness"], columns.get("force_std"))
+
+
+def _opened(file: str) -> BinaryIO:
+    try:
+        return open(file, "rb")
+    except OSError as error:
+        raise InputError(f"{file} cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise InputError(f"{file!r} is not a file name: {error}") from None
+
+
+@dataclass(frozen=True)
+class _Column:
+    """One column of an open table: how to name it in errors, read it, and what it holds."""
+
+    number: int
+    name: str
+    quantity: str
+    power: int
+    values: array[float] = field(default_factory=lambda: array("d"))
+
+
+def _read_table(file: str, stream: BinaryIO) -> dict[str, NDArray[np.float64]]:
+    rows = _rows(file, stream)
+    first = next(rows, None)
+    if first is None:
+        raise InputError(
+            f"{file} is empty; write a header such as "
+            "wire_radius_mm,force_per_thickness_N_per_m and one line a wire."
+        )
+    header_line, names = first
+    columns = _read_header(f"{file}, line {header_line}", names)
+    for line, cells in rows:
+        if len(cells) != len(columns):
+            values = "1 value" if len(cells) == 1 else f"{len(cells)} values"
+            raise InputError(
+                f"{file}, line {line} has {values} where the header names {len(columns)} columns; "
+                "give one a column, with a decimal point where there is a decimal comma."
+            )
+        for column, cell in zip(columns, cells, strict=True):
+            place = f"{file}, line {line}, column {column.number} ({column.name})"
+            column.values.append(_positive(place, cell, column.power))
+    if not columns[0].values:
+        raise InputError(
+            f"{file}, line {header_line} is a header without measurements; write one line a wire."
+        )
+    return {column.quantity: np.array(column.values) for column in columns}
+
+
+def _rows(file: str, stream: BinaryIO) -> Iterator[tuple[int, list[str]]]:
+    """Yield line number and cells, one bounded line in memory at a time."""
+    line = 0
+    while raw := stream.readline(_LONGEST_LINE):
+        line += 1
+        place = f"{file}, line {line}"
+        if len(raw) == _LONGEST_LINE:
+            raise InputError(f"{place} has {_LONGEST_LINE} characters or more; is it a CSV table?")
+        try:
+            text = raw.decode("utf-8-sig" if line == 1 else "utf-8").strip()
+        except UnicodeDecodeError as error:
+            raise InputError(
+                f"{place}, byte {error.start + 1} is not UTF-8 text; save the table as 'CSV UTF-8'."
+            ) from None
+        if not text or text.lstrip('"').startswith("#"):
+            continue
+        for mark, name in ((";", "semicolon"), ("\t", "tab")):
+            if mark in text:
+                raise InputError(
+                    f"{place}, character {text.index(mark) + 1} is a {name}; separate columns by "
+                    "commas and write decimals with a point."
+                )
+        yield line, [_unquoted(cell) for cell in text.split(",")]
+
+
+def _unquoted(cell: str) -> str:
+    cell = cell.strip()
+    return cell[1:-1].strip() if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
+
+
+def _read_header(place: str, names: list[str]) -> list[_Column]:
+    columns: dict[str, _Column] = {}
+    for number, name in enumerate(names, start=1):
+        quantity, power = _quantity_and_power(f"{place}, column {number}", name, COLUMNS)
+        if quantity in columns:
+            raise InputError(
+                f"{place}, column {number} ({name}) gives {quantity} again after column "
+                f"{columns[quantity].number} ({columns[quantity].name}); keep one of them."
+            )
+        columns[quantity] = _Column(number, name, quantity, power)
+    if ("wire_radius" in columns) == ("wire_diameter" in columns):
+        state = "both a radius and a diameter" if "wire_radius" in columns else "no wire radius"
+        raise InputError(f"{place} names {state}; keep wire_radius_<unit> or wire_diameter_<unit>.")
+    if "force_per_thickness" not in columns:
+        raise InputError(
+            f"{place} names no force_per_thickness_<unit>; divide the steady force by the "
+            "sample's thickness and give it in one of the units N_per_m, mN_per_mm, J_per_m2."
+        )
+    return list(columns.values())
+
+
+def _quantity_and_power(place: str, name: str, quantities: dict[str, Dimension]) -> tuple[str, int]:
+    """Split a name such as wire_radius_mm into its quantity and its unit's power of ten."""
+    if not name:
+        raise InputError(f"{place} has no name; name its quantity and unit, or delete it.")
+    for quantity in sorted(quantities, key=len, reverse=True):
+        if name == quantity or name.startswith(quantity + "_"):
+            unit = name[len(quantity) + 1 :]
+            power = quantities[quantity].power(unit)
+            if power is not None:
+                return quantity, power
+            raise InputError(
+                f"{place} ({name}) does not end with a unit of {quantity}; "
+                f"write {quantities[quantity].spellings(quantity)}."
+            )
+    raise InputError(f"{place} ({name!r}) is not known; name one of {', '.join(quantities)}.")
+
+
+def _positive(place: str, cell: str, power: int) -> float:
+    if not cell:
+        raise InputError(f"{place} is empty; fill the gap or delete the line.")
+    value = parse_number(cell, power)
+    if value is None:
+        raise InputError(
+            f"{place}: {cell[:40]!r} is not a number; write digits with a decimal point."
+        )
+    if not 0.0 < value < np.inf:
+        raise InputError(
+            f"{place}: {cell[:40]} is not a positive number within a computer's range; "
+            "correct it, and turn the sign if your machine counts compression as negative."
+        )
+    return value
+
+
+def read_material(path: str | PathLike[str]) -> Material:
+    """Read material properties from a JSON file whose keys name quantity and unit.
+
+    Keys are ``schema`` ("wirecut-material-1"), ``name`` and ``source`` (text), and any of
+    ``shear_modulus_<unit>``, ``pure_shear_toughness_<unit>``, ``work_of_fracture_<unit>``,
+    each with ``..._std_<unit>``, ``friction_coefficient`` and ``stiffening_exponent``.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file.
+
+    Returns
+    -------
+    Material
+        The properties in SI units.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not such a JSON object, or holds an unknown or repeated
+        key or a value that is not a number of 0 or more.
+
+    Examples
+    --------
+    >>> from surrogate.paths import model_file
+    >>> material = read_material(model_file("paam-material.json"))
+    >>> material.shear_modulus, material.work_of_fracture
+    (685.0, 6973.0)
+    """
+    file = fspath(path)
+    properties: dict[str, float] = {}
+    for key, value in _read_json_object(file):
+        if key in ("name", "source"):
+            continue
+        if key == "schema":
+            if value != _MATERIAL_SCHEMA:
+                raise InputError(
+                    f"{file}: schema is {value!r} where only {_MATERIAL_SCHEMA!r} is known."
+                )
+            continue
+        quantity, power = _quantity_and_power(f"{file}, key", key, PROPERTIES)
+        if quantity in properties:
+            raise InputError(f"{file}, key ({key}) gives {quantity} again; keep one of them.")
+        number = parse_number(value, power) if isinstance(value, _Literal) else None
+        if number is None or not 0.0 <= number < np.inf:
+            raise InputError(
+                f"{file}, key ({key}): {value!r:.40} is not a number of 0 or more; "
+                "write digits without quotes."
+            )
+        properties[quantity] = number
+    return Material(**properties)
+
+
+class _Literal(str):
+    """A JSON number as it is written, so that the unit's power joins before rounding."""
+
+
+def _read_json_object(file: str) -> list[tuple[str, Any]]:
+    with _opened(file) as stream:
+        raw = stream.read(_LARGEST_MATERIAL_FILE)
+    try:
+        pairs = json.loads(
+            raw.decode("utf-8-sig"),
+            parse_int=_Literal,
+            parse_float=_Literal,
+            object_pairs_hook=list,
+        )
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{file} is not JSON ({error}); see models/paam-material.json.") from None
+    if not isinstance(pairs, list) or not all(isinstance(pair, tuple) for pair in pairs):
+        raise InputError(f"{file} is not a JSON object; write {{...}} with one key a property.")
+    return pairs

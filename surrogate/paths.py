@@ -1,0 +1,71 @@
+"""Where the shipped data and fitted models are: in a wheel, an editable install or a checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from surrogate.errors import InputError
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def models_folder() -> Path:
+    """Return the folder of shipped data and models.
+
+    A wheel carries it inside the package; a checkout, and an editable install of it, beside
+    the package.
+
+    Returns
+    -------
+    pathlib.Path
+        The folder `models`.
+
+    Raises
+    ------
+    InputError
+        If the installation lacks it.
+
+    Examples
+    --------
+    >>> models_folder().name
+    'models'
+    """
+    for folder in (_PACKAGE / "models", _PACKAGE.parent / "models"):
+        if folder.is_dir():
+            return folder
+    raise InputError(
+        f"the folder 'models' is neither in {_PACKAGE} nor beside it, "
+        "the installation is incomplete; install wirecut again."
+    )
+
+
+def model_file(name: str) -> Path:
+    """Return the path of one shipped file.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file, without folders.
+
+    Returns
+    -------
+    pathlib.Path
+        The file's path.
+
+    Raises
+    ------
+    InputError
+        If no file of this name is shipped.
+
+    Examples
+    --------
+    >>> model_file("paam-wire-cutting.csv").name
+    'paam-wire-cutting.csv'
+    """
+    folder = models_folder()
+    shipped = {path.name: path for path in folder.iterdir() if path.is_file()}
+    if name not in shipped:
+        raise InputError(
+            f"no file {name!r} is shipped; choose one of {', '.join(sorted(shipped))}."
+        )
+    return shipped[name]

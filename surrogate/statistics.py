@@ -1,0 +1,93 @@
+"""Quantiles that turn a standard error into a confidence interval, without scipy."""
+
+from __future__ import annotations
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+
+_LARGEST_SUMMED = 1000
+"""Degrees of freedom up to which the finite sum is used; a series in 1/dof above."""
+
+
+def normal_quantile(confidence: float) -> float:
+    """Half width, in standard deviations, of the central interval of a normal distribution.
+
+    Parameters
+    ----------
+    confidence : float
+        Probability inside the interval [-], between 0 and 1.
+
+    Returns
+    -------
+    float
+        z with P(|Z| <= z) = `confidence` [-].
+
+    References
+    ----------
+    M. J. Wichura, Applied Statistics 37 (1988) 477 (the standard library's algorithm).
+
+    Examples
+    --------
+    >>> print(f"{normal_quantile(0.95):.6f}")
+    1.959964
+    """
+    return -NormalDist().inv_cdf(0.5 * (1.0 - confidence))
+
+
+def student_quantile(confidence: float, dof: int) -> float:
+    """Half width, in standard errors, of the central interval of Student's t distribution.
+
+    For up to 1000 degrees of freedom the distribution is the finite sum that an integer
+    number of them allows, all of whose terms are positive; above, the expansion about the
+    normal quantile to third order. Both hold 9 digits for confidences up to 0.999999.
+
+    Parameters
+    ----------
+    confidence : float
+        Probability inside the interval [-], between 0 and 1.
+    dof : int
+        Degrees of freedom, 1 or more.
+
+    Returns
+    -------
+    float
+        t with P(|T| <= t) = `confidence` [-].
+
+    References
+    ----------
+    M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 26.7.3, 26.7.4, 26.7.5.
+
+    Examples
+    --------
+    >>> print(f"{student_quantile(0.95, 3):.6f}")
+    3.182446
+    """
+    if dof > _LARGEST_SUMMED:
+        return _student_far(normal_quantile(confidence), dof)
+    low, high = 0.0, 0.5 * math.pi
+    while low < (angle := 0.5 * (low + high)) < high:
+        if _student_probability(angle, dof) < confidence:
+            low = angle
+        else:
+            high = angle
+    return math.sqrt(dof) * math.tan(low)
+
+
+def _student_probability(angle: float, dof: int) -> float:
+    """P(|T| <= sqrt(dof) tan(angle)), Abramowitz and Stegun 26.7.3 and 26.7.4."""
+    sine, cosine = math.sin(angle), math.cos(angle)
+    powers = np.arange(3 if dof % 2 else 2, dof - 1, 2)
+    terms = np.cumprod((1.0 - 1.0 / powers) * cosine**2)
+    if dof % 2 == 0:
+        return float(sine * (1.0 + terms.sum()))
+    series = sine * cosine * (1.0 + terms.sum()) if dof > 1 else 0.0
+    return float(2.0 / math.pi * (angle + series))
+
+
+def _student_far(z: float, dof: int) -> float:
+    first = (z**3 + z) / 4.0
+    second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
+    third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0
+    return z + first / dof + second / dof**2 + third / dof**3
