@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.errors import InputError
+from surrogate.errors import DomainError, InputError
 
 __all__ = [
     "FRICTION_COEFFICIENT",
@@ -34,6 +34,7 @@ __all__ = [
     "FloatOrArray",
     "Quantity",
     "broadcast_shape",
+    "defined",
 ]
 
 FloatOrArray: TypeAlias = "float | NDArray[np.float64]"
@@ -155,6 +156,25 @@ def broadcast_shape(names: tuple[str, ...], values: tuple[FloatOrArray, ...]) ->
             f"arguments must broadcast together, but their shapes are {listed}; "
             "give arrays of one shape, or insert axes of length 1."
         ) from None
+
+
+def defined(name: str, value: FloatOrArray, remedy: str) -> FloatOrArray:
+    """Return a computed value, or raise a `DomainError` where it has no limit, that is, is nan.
+
+    Examples
+    --------
+    >>> defined("wear_length", 2e-4, "give a toughness")
+    0.0002
+    """
+    if isinstance(value, float):
+        if value == value:
+            return value
+        where = ""
+    else:
+        if not value.size or value.min() == value.min():
+            return value
+        where = f" at index [{', '.join(map(str, np.argwhere(np.isnan(value))[0]))}]"
+    raise DomainError(f"{name} must be a ratio with a limit, but it is 0/0{where}; {remedy}.")
 
 
 SHEAR_MODULUS = Quantity("shear_modulus", "Pa", "give the small-strain shear modulus in pascals")

@@ -1,0 +1,191 @@
+"""Models of the contact between wire and solid, in the two functions that the force needs.
+
+With g = Gamma_o/(mu R_w) and the contact arc from theta_1 to theta_2, Eqs. (S1) and (S2) give
+
+    F_ss/T = Gamma_o + 2 R_w [tau_w A(g, alpha) + xi mu B(g, alpha)],
+
+where A = cos theta_1 - cos theta_2 is the arc along which the solid wears and
+B = F_v/(mu R_w T) the normal load which friction follows. A model is a choice of A and B.
+
+All methods work on validated floats as well as on float64 blocks; nothing is checked here.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from surrogate.elementwise import dense, product, where
+from surrogate.equations import TABLE_1, TABULATED_STIFFENING, table_1_exponent
+from surrogate.errors import UnknownModelError
+from surrogate.validation import STIFFENING_EXPONENT, Quantity
+
+__all__ = ["FORCE_MODELS", "MUCH_GREATER", "ClosedForm", "ForceModel", "PowerLaw", "force_model"]
+
+MUCH_GREATER = 10.0
+"""The factor that >> and << in the paper's conditions are taken to mean."""
+
+
+class ForceModel(ABC):
+    """What every model of the cutting force answers.
+
+    The arguments are g [-], alpha [-], and the six quantities of a scene in its order.
+    """
+
+    __slots__ = ()
+
+    name: str
+    equation: str
+    domain: str
+    stiffening: Quantity  # the alpha that the model accepts
+
+    @abstractmethod
+    def arc(self, g: Any, alpha: Any) -> Any:
+        """Return A = cos theta_1 - cos theta_2 [-]."""
+
+    @abstractmethod
+    def normal_load(self, g: Any, alpha: Any) -> Any:
+        """Return B = F_v/(mu R_w T) [-]."""
+
+    @abstractmethod
+    def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        """Return the friction 2 R_w xi mu B and the wear 2 R_w tau_w A [N/m].
+
+        Exact where g is infinite or 0/0, which `arc` and `normal_load` cannot be.
+        """
+
+    @abstractmethod
+    def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        """Return whether the model holds."""
+
+
+Condition = Callable[[Any, Any, Any, Any, Any], Any]
+"""Whether a closed form holds, from mu, Gamma_o, R_w, xi and tau_w."""
+
+
+@dataclass(frozen=True)
+class ClosedForm(ForceModel):
+    """Constant A and a B that is linear in g: 2 A = `arc_2`, 2 B = `load_2` + `load_2_slope` g."""
+
+    name: str
+    equation: str
+    domain: str
+    arc_2: float
+    load_2: float
+    load_2_slope: float
+    condition: Condition
+    stiffening: Quantity = STIFFENING_EXPONENT
+
+    def arc(self, g: Any, alpha: Any) -> Any:
+        return 0.5 * self.arc_2
+
+    def normal_load(self, g: Any, alpha: Any) -> Any:
+        return 0.5 * (self.load_2 + self.load_2_slope * g)
+
+    def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        # 2 R_w mu B = load_2 mu R_w + load_2_slope Gamma_o needs no g.
+        friction = self.load_2_slope * (xi * gamma) if self.load_2_slope else 0.0
+        if self.load_2:
+            friction = friction + self.load_2 * product(radius, xi, mu)
+        return friction, self.arc_2 * (wear * radius) if self.arc_2 else 0.0
+
+    def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        return self.condition(mu, gamma, radius, xi, wear)
+
+
+@dataclass(frozen=True)
+class PowerLaw(ForceModel):
+    """Eq. (9) with the exponents of Table 1: A = 0, 2 B = g^n(alpha)."""
+
+    name: str = "power-law"
+    equation: str = "Eq. (9)"
+    domain: str = (
+        f"Gamma_o >= {MUCH_GREATER:g} mu R_w, alpha from {min(TABLE_1):g} to {max(TABLE_1):g}"
+    )
+    stiffening: Quantity = TABULATED_STIFFENING
+
+    def arc(self, g: Any, alpha: Any) -> Any:
+        return 0.0
+
+    def normal_load(self, g: Any, alpha: Any) -> Any:
+        return 0.5 * np.power(g, table_1_exponent(alpha))
+
+    def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        """Return friction xi Gamma_o g^(n - 1) and no wear; no friction where Gamma_o = 0."""
+        excess = table_1_exponent(alpha) - 1.0
+        with np.errstate(all="ignore"):  # logarithms cannot overflow as g would
+            log_g = np.log(dense(gamma)) - (np.log(dense(mu)) + np.log(dense(radius)))
+            power = np.exp(dense(excess * log_g))
+        power = where(excess == 0.0, 1.0, power)
+        friction = product(xi, gamma, power)
+        return where((xi == 0.0) | (gamma == 0.0), 0.0, friction), 0.0
+
+    def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        return _high_toughness(mu, gamma, radius, xi, wear)
+
+
+def _always(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
+    return True
+
+
+def _high_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
+    return (gamma >= MUCH_GREATER * (mu * radius)) & (gamma > 0.0)
+
+
+def _low_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
+    return gamma <= mu * radius
+
+
+def _friction_free(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
+    return (MUCH_GREATER * xi <= 1.0) & (MUCH_GREATER * (xi * mu) <= wear) | (xi == 0.0)
+
+
+def _by_name(*models: ForceModel) -> Mapping[str, ForceModel]:
+    return MappingProxyType({model.name: model for model in models})
+
+
+FORCE_MODELS = _by_name(
+    ClosedForm("eq13", "Eq. (13)", "any", 4.0, 4.0, 1.0, _always),
+    ClosedForm(
+        "high-toughness",
+        "Eq. (10)",
+        f"Gamma_o >= {MUCH_GREATER:g} mu R_w",
+        0.0,
+        0.0,
+        1.0,
+        _high_toughness,
+    ),
+    ClosedForm("low-toughness", "Eq. (12)", "Gamma_o <= mu R_w", 4.0, 4.0, 0.0, _low_toughness),
+    ClosedForm(
+        "friction-free",
+        "Eq. (15)",
+        f"{MUCH_GREATER:g} xi <= 1 and {MUCH_GREATER:g} xi mu <= tau_w",
+        4.0,
+        0.0,
+        0.0,
+        _friction_free,
+    ),
+    PowerLaw(),
+)
+"""Every model by its name."""
+
+
+def force_model(name: object) -> ForceModel:
+    """Return the model of that name.
+
+    Raises
+    ------
+    UnknownModelError
+        If there is none; the message lists those that there are.
+    """
+    if isinstance(name, str) and name in FORCE_MODELS:
+        return FORCE_MODELS[name]
+    raise UnknownModelError(
+        f"model must be the name of a model, but model = {name!r}; "
+        f"choose one of {', '.join(FORCE_MODELS)}."
+    )

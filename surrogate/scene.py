@@ -1,0 +1,144 @@
+"""What is cut, and with which wire."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from surrogate.elementwise import apply, quotient, ratio
+from surrogate.records import Record
+from surrogate.validation import (
+    FRICTION_COEFFICIENT,
+    SHEAR_MODULUS,
+    STIFFENING_EXPONENT,
+    TOUGHNESS,
+    WEAR_STRENGTH,
+    WIRE_RADIUS,
+    FloatOrArray,
+    Quantity,
+    broadcast_shape,
+    defined,
+)
+
+__all__ = ["Scene"]
+
+QUANTITIES: tuple[Quantity, ...] = (
+    SHEAR_MODULUS,
+    TOUGHNESS,
+    WIRE_RADIUS,
+    FRICTION_COEFFICIENT,
+    WEAR_STRENGTH,
+    STIFFENING_EXPONENT,
+)
+NAMES = tuple(quantity.name for quantity in QUANTITIES)
+
+
+@dataclass(frozen=True, slots=True, init=False, eq=False)
+class Scene(Record):
+    """A soft solid and the wire that cuts it, in SI units.
+
+    Numbers become Python floats. Arrays become read-only views, not copies, of float64 arrays;
+    they broadcast together.
+
+    Parameters
+    ----------
+    shear_modulus : float or array_like
+        Small-strain shear modulus mu [Pa].
+    toughness : float or array_like
+        Cleavage toughness Gamma_o [J/m^2].
+    wire_radius : float or array_like
+        Radius of the wire R_w [m]; half its diameter.
+    friction_coefficient : float or array_like, default 0
+        Friction coefficient xi between wire and solid [-].
+    wear_strength : float or array_like, default 0
+        Shear strength tau_w of interface and solid [Pa].
+    stiffening_exponent : float or array_like, default 2
+        Exponent alpha of the Ogden solid, Eq. (1) [-]; 2 is neo-Hookean.
+
+    Raises
+    ------
+    InputError
+        If a quantity is not a real number or an array of them, is nan, infinite or negative, or
+        alpha is 0, or if the shapes do not broadcast.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (1), (4), (8), (14) and (15).
+
+    Examples
+    --------
+    >>> scene = Scene(shear_modulus=685.0, toughness=1.6, wire_radius=[1e-4, 4e-4])
+    >>> print(scene.dimensionless_toughness.round(4))
+    [23.3577  5.8394]
+    >>> print(f"{scene.elasto_cohesive_length:.4e} m")
+    2.3358e-03 m
+    """
+
+    shear_modulus: FloatOrArray
+    toughness: FloatOrArray
+    wire_radius: FloatOrArray
+    friction_coefficient: FloatOrArray
+    wear_strength: FloatOrArray
+    stiffening_exponent: FloatOrArray
+
+    def __init__(
+        self,
+        shear_modulus: ArrayLike,
+        toughness: ArrayLike,
+        wire_radius: ArrayLike,
+        friction_coefficient: ArrayLike = 0.0,
+        wear_strength: ArrayLike = 0.0,
+        stiffening_exponent: ArrayLike = 2.0,
+    ) -> None:
+        given = (
+            shear_modulus,
+            toughness,
+            wire_radius,
+            friction_coefficient,
+            wear_strength,
+            stiffening_exponent,
+        )
+        for quantity, value in zip(QUANTITIES, given):  # noqa: B905 (twice the speed)
+            checked = quantity.checked(value)
+            if not isinstance(checked, float):
+                checked = checked.view()
+                checked.flags.writeable = False
+            object.__setattr__(self, quantity.name, checked)
+        if not all(type(value) is float for value in self.values()):
+            broadcast_shape(NAMES, self.values())
+
+    def values(self) -> tuple[FloatOrArray, ...]:
+        """Return the six quantities in the order of the parameters."""
+        return (
+            self.shear_modulus,
+            self.toughness,
+            self.wire_radius,
+            self.friction_coefficient,
+            self.wear_strength,
+            self.stiffening_exponent,
+        )
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Common shape of the quantities; () where all are numbers."""
+        return np.broadcast_shapes(*map(np.shape, self.values()))
+
+    @property
+    def dimensionless_toughness(self) -> FloatOrArray:
+        """g = Gamma_o/(mu R_w) [-]; infinite where mu R_w = 0, a `DomainError` if 0/0."""
+        g = apply(quotient, (self.toughness, self.shear_modulus, self.wire_radius))
+        return defined("dimensionless_toughness", g, "give a toughness, or a modulus and a radius")
+
+    @property
+    def elasto_cohesive_length(self) -> FloatOrArray:
+        """l_e = Gamma_o/mu [m]; infinite where mu = 0, a `DomainError` if 0/0."""
+        length = apply(ratio, (self.toughness, self.shear_modulus))
+        return defined("elasto_cohesive_length", length, "give a toughness or a modulus")
+
+    @property
+    def wear_length(self) -> FloatOrArray:
+        """l_w = Gamma_o/tau_w [m]; infinite where tau_w = 0, a `DomainError` if 0/0."""
+        length = apply(ratio, (self.toughness, self.wear_strength))
+        return defined("wear_length", length, "give a toughness or a wear strength")
