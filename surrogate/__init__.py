@@ -1,1 +1,104 @@
-"""Cutting forces, regimes and material identification for wire cutting of soft solids."""
+"""Cutting forces, regimes and material identification for wire cutting of soft solids.
+
+>>> import surrogate
+>>> scene = surrogate.Scene(
+...     shear_modulus=685.0, toughness=1.6, wire_radius=0.25e-3, wear_strength=7750.0
+... )
+>>> print(f"{surrogate.cutting_force(scene).total:.3f} N/m")
+9.350 N/m
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from surrogate.equations import (
+    far_field_energy_release_rate,
+    friction_free_relative_force,
+    general_force,
+    high_toughness_force,
+    low_toughness_dissipation,
+    low_toughness_force,
+    power_law_dissipation,
+    power_law_exponent,
+    relative_force,
+)
+from surrogate.errors import DomainError, InputError, UnknownModelError, WirecutError
+from surrogate.force import CuttingForce, cutting_force, dissipative_force
+from surrogate.force_models import FORCE_MODELS
+from surrogate.radii import (
+    fracto_cohesive_transition_radius,
+    transition_radius,
+    wear_transition_radius,
+)
+from surrogate.regimes import Regime, classify
+from surrogate.scene import Scene
+
+if TYPE_CHECKING:
+    from surrogate.data import Material, Measurements, read_material, read_measurements
+    from surrogate.design import Design, design_radii
+    from surrogate.identification import Identification, identify
+    from surrogate.plots import plot_identification
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "FORCE_MODELS",
+    "CuttingForce",
+    "Design",
+    "DomainError",
+    "Identification",
+    "InputError",
+    "Material",
+    "Measurements",
+    "Regime",
+    "Scene",
+    "UnknownModelError",
+    "WirecutError",
+    "classify",
+    "cutting_force",
+    "design_radii",
+    "dissipative_force",
+    "far_field_energy_release_rate",
+    "fracto_cohesive_transition_radius",
+    "friction_free_relative_force",
+    "general_force",
+    "high_toughness_force",
+    "identify",
+    "low_toughness_dissipation",
+    "low_toughness_force",
+    "plot_identification",
+    "power_law_dissipation",
+    "power_law_exponent",
+    "read_material",
+    "read_measurements",
+    "relative_force",
+    "transition_radius",
+    "wear_transition_radius",
+]
+
+# What a force does not need is loaded at first use, which keeps `import surrogate` quick.
+_LAZY = {
+    "Design": "design",
+    "Identification": "identification",
+    "Material": "data",
+    "Measurements": "data",
+    "design_radii": "design",
+    "identify": "identification",
+    "plot_identification": "plots",
+    "read_material": "data",
+    "read_measurements": "data",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LAZY:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -479,8 +479,6 @@ def friction_free_relative_force(wire_radius: ArrayLike, wear_length: ArrayLike)
 
 # The kernels, which take validated floats or blocks.
 
-_ALPHA, _N = np.array(list(TABLE_1)), np.array(list(TABLE_1.values()))
-
 _SCENE = (SHEAR_MODULUS, TOUGHNESS, WIRE_RADIUS, FRICTION_COEFFICIENT, WEAR_STRENGTH)
 
 
@@ -489,8 +487,10 @@ def _inverse_square(x: Any) -> Any:
 
 
 def table_1_exponent(alpha: Any) -> Any:
-    exponent = np.interp(alpha, _ALPHA, _N)
-    return float(exponent) if type(alpha) is float else exponent
+    (a0, n0), (a1, n1), (a2, n2) = TABLE_1.items()
+    first = n0 + (n1 - n0) * ((alpha - a0) / (a1 - a0))
+    second = n1 + (n2 - n1) * ((alpha - a1) / (a2 - a1))
+    return where(alpha < a1, first, second)
 
 
 def _power_law(g: Any, xi: Any, n: Any) -> Any:
