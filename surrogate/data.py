@@ -143,9 +143,13 @@ def _opened(file: str) -> BinaryIO:
     try:
         return open(file, "rb")
     except OSError as error:
-        raise InputError(f"{file} cannot be read: {error.strerror}") from None
+        raise InputError(
+            f"{file} cannot be read ({error.strerror}); give the path of a file."
+        ) from None
     except ValueError as error:
-        raise InputError(f"{file!r} is not a file name: {error}") from None
+        raise InputError(
+            f"{file!r} is not a file name ({error}); give the path of a file."
+        ) from None
 
 
 @dataclass(frozen=True)

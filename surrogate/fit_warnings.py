@@ -1,0 +1,157 @@
+"""What makes an identification doubtful, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from surrogate.statistics import normal_quantile, student_quantile
+
+if TYPE_CHECKING:
+    from surrogate.identification import Identification
+
+LARGEST_CONDITION = 30.0
+"""Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
+told apart; met when the radii differ by less than about 7 % (one standard deviation)."""
+
+FALSE_ALARM = 0.01
+"""Probability that a sound experiment, of however many cuts, is given an outlier warning; and
+the same for a misfit warning."""
+
+_ROUNDING = 64.0 * np.finfo(float).eps
+
+
+def fit_warnings(fit: Identification) -> Iterator[str]:
+    """Yield one sentence for each reason to doubt an identification.
+
+    Parameters
+    ----------
+    fit : Identification
+        The identification to look at.
+
+    Yields
+    ------
+    str
+        What is doubtful, with the numbers, and what would help.
+
+    Examples
+    --------
+    >>> from surrogate.identification import identify
+    >>> for sentence in fit_warnings(identify([2e-4, 4e-4, 2e-4], [1.0, 1.1, 1.05], 1e5)):
+    ...     print(sentence[:28])
+    only 2 different radii: they
+    """
+    for doubts in (_too_few_radii, _condition, _negative_estimates, _regime, _scatter, _outlier):
+        yield from doubts(fit)
+
+
+def _too_few_radii(fit: Identification) -> Iterator[str]:
+    if (distinct := np.unique(fit.wire_radius).size) < 3:
+        yield (
+            f"only {distinct} different radii: they cannot show whether the forces lie on a line; "
+            "cut with a third radius between them"
+        )
+
+
+def _condition(fit: Identification) -> Iterator[str]:
+    if fit.condition > LARGEST_CONDITION:
+        smallest, largest = 1e3 * fit.wire_radius.min(), 1e3 * fit.wire_radius.max()
+        yield (
+            f"the radii ({smallest:.4g} to {largest:.4g} mm) are too alike to tell toughness from "
+            f"wear (condition number {fit.condition:.0f}, limit {LARGEST_CONDITION:.0f}); "
+            "add much thinner or thicker wires"
+        )
+
+
+def _negative_estimates(fit: Identification) -> Iterator[str]:
+    remedy = "check the units, the friction coefficient and that radii are not diameters"
+    if fit.toughness < 0.0:
+        yield f"the toughness is negative ({fit.toughness:.4g} J/m2) and is not clipped; {remedy}"
+    if fit.wear_strength < 0.0:
+        yield (
+            f"the wear strength is negative ({fit.wear_strength:.4g} Pa) and is not clipped: "
+            f"the force does not grow with the radius as much as friction alone asks; {remedy}"
+        )
+
+
+def _regime(fit: Identification) -> Iterator[str]:
+    g = fit.dimensionless_toughness
+    if (beyond := int(np.count_nonzero(g > 1.0))) > 0:
+        yield (
+            f"{beyond} of {g.size} wires cut at g = Gamma_o/(mu R_w) above 1 "
+            f"({g.min():.3g} to {g.max():.3g}): the wear term 4 tau_w R_w of model '{fit.model}' "
+            "comes from Eq. 11, which holds for g <= 1; tau_w rests on its extrapolation, and "
+            f"wires thicker than {1e3 * fit.toughness / fit.shear_modulus:.3g} mm would not"
+        )
+    if fit.model == "friction-free" and fit.friction_coefficient > 0.0:
+        yield (
+            f"model 'friction-free' leaves out the friction coefficient "
+            f"{fit.friction_coefficient:.3g} that was given; use 'eq13' to include it"
+        )
+
+
+def _scatter(fit: Identification) -> Iterator[str]:
+    if fit.force_std is None and fit.dof == 0:
+        yield (
+            "two forces determine the line exactly and leave no measure of scatter: standard "
+            "errors are unknown; cut more often, or give force_std"
+        )
+    elif _is_exact(fit):
+        yield (
+            "the forces lie on the line to the last digit, which no measurement does: the "
+            "residuals say nothing about the experiment's uncertainty"
+        )
+    elif fit.reduced_chi_squared is not None and fit.dof > 0:
+        limit = _reduced_chi_squared_limit(fit.dof)
+        if fit.reduced_chi_squared > limit:
+            yield (
+                f"chi^2/dof = {fit.reduced_chi_squared:.3g} is above {limit:.3g}: the forces "
+                "scatter about the line more than force_std allows; the line does not hold, or "
+                "force_std is too small, and so are the standard errors"
+            )
+
+
+def _outlier(fit: Identification) -> Iterator[str]:
+    """Compare the residuals with their own spread (Bonferroni over cuts), and name the worst.
+
+    Only the worst, because one bad cut drags the line away from the good ones. Without known
+    standard errors the spread is that of the other cuts, each left out in turn.
+    """
+    if _is_exact(fit):
+        return
+    confidence = 1.0 - FALSE_ALARM / fit.force.size
+    spread = np.sqrt(np.maximum(1.0 - fit.leverage, 0.0))
+    testable = spread > 1e-6  # a cut that the line must pass through cannot deviate
+    deviation = np.zeros_like(fit.residuals)
+    if fit.force_std is not None:
+        scaled = fit.residuals / fit.force_std
+        limit = normal_quantile(confidence)
+        np.divide(scaled, spread, out=deviation, where=testable)
+    elif fit.dof > 1:
+        scaled = fit.residuals / np.sqrt(fit.residuals @ fit.residuals / fit.dof)
+        limit = student_quantile(confidence, fit.dof - 1)
+        np.divide(scaled, spread, out=deviation, where=testable)
+        others = np.maximum(fit.dof - deviation**2, fit.dof * _ROUNDING)
+        deviation *= np.sqrt((fit.dof - 1) / others)
+    else:
+        return
+    worst = int(np.argmax(np.abs(deviation)))
+    if abs(deviation[worst]) > limit:
+        yield (
+            f"cut {worst + 1} (R_w = {1e3 * fit.wire_radius[worst]:.4g} mm, "
+            f"{fit.force[worst]:.4g} N/m) is {abs(deviation[worst]):.1f} standard deviations off "
+            f"the line (limit {limit:.1f}): an outlier; repeat that cut"
+        )
+
+
+def _is_exact(fit: Identification) -> bool:
+    return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= _ROUNDING * np.max(fit.force))
+
+
+def _reduced_chi_squared_limit(dof: int) -> float:
+    """Value that chi^2/dof exceeds with probability FALSE_ALARM, after Wilson and Hilferty."""
+    z = normal_quantile(1.0 - 2.0 * FALSE_ALARM)
+    variance = 2.0 / (9.0 * dof)
+    return float((1.0 - variance + z * np.sqrt(variance)) ** 3)

@@ -1,0 +1,217 @@
+"""Figures; matplotlib is imported by the functions that need it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.util import find_spec
+from os import PathLike
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.errors import InputError, WirecutError
+from surrogate.identification import Identification
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SINGLE_COLUMN = (3.4, 2.9)
+"""Width and height of a figure that fills one column of a journal [inch]."""
+
+_SMALL = 7.0
+_MEDIUM = 8.0
+_BLUE, _RED, _GREY = "#1f5fa8", "#c0392b", "#555555"
+
+
+def plot_identification(
+    identification: Identification,
+    ax: Axes | None = None,
+    *,
+    pure_shear_toughness: float | None = None,
+    force_label: str = "measured",
+) -> Axes:
+    """Draw cutting force against wire radius with the fit and what it says, as in Fig. 1c.
+
+    Shows the measurements (with bars of one standard error where known), the fitted
+    line from the axis on, its confidence band, the identified toughness at the intercept, the
+    transition radius of Eq. (13), and the toughness of another test where it is given. Changes
+    nothing outside its axes and shows nothing on the screen.
+
+    Parameters
+    ----------
+    identification : Identification
+        What `identify` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new single-column figure by default.
+    pure_shear_toughness : float, optional
+        Gamma of a fracture test, drawn as the dashed horizontal line [J/m2].
+    force_label : str, default "measured"
+        What the legend calls the forces.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The axes, for instance for ``ax.figure.savefig("fit.pdf")``.
+
+    Raises
+    ------
+    WirecutError
+        If matplotlib is not installed.
+
+    References
+    ----------
+    arXiv:2412.02021, Fig. 1c.
+
+    Examples
+    --------
+    >>> import matplotlib.figure
+    >>> from surrogate.identification import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    >>> ax = plot_identification(fit, matplotlib.figure.Figure().add_subplot())
+    >>> ax.get_xlabel()
+    'wire radius $R_w$ [mm]'
+    """
+    if ax is None:
+        ax = _new_axes()
+    radius = np.linspace(1e-6, 1.08, 201) * identification.wire_radius.max()
+    handles = [
+        _draw_measurements(ax, identification, force_label),
+        *_draw_fit(ax, identification, radius),
+        *_draw_references(ax, identification, pure_shear_toughness),
+    ]
+    _label(ax, radius[-1], handles)
+    return ax
+
+
+def save_identification(
+    identification: Identification,
+    file: str | PathLike[str],
+    *,
+    pure_shear_toughness: float | None = None,
+    force_label: str = "measured",
+) -> None:
+    """Write the picture of `plot_identification` to a file, one journal column wide.
+
+    Parameters
+    ----------
+    identification : Identification
+        What `identify` returned.
+    file : str or path-like
+        Where to write; the ending chooses the format (.png, .pdf, .svg).
+    pure_shear_toughness : float, optional
+        Gamma of a fracture test, drawn as the dashed horizontal line [J/m2].
+    force_label : str, default "measured"
+        What the legend calls the forces.
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or the file cannot be written.
+    WirecutError
+        If matplotlib is not installed.
+
+    Examples
+    --------
+    >>> from surrogate.identification import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    >>> save_identification(fit, "fit.doc")
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
+    """
+    if PurePath(file).suffix.lower() not in (".png", ".pdf", ".svg"):
+        raise InputError(f"{file} has no picture's ending; choose .png, .pdf or .svg.")
+    _require_matplotlib()
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=SINGLE_COLUMN, layout="constrained")
+    plot_identification(
+        identification,
+        figure.add_subplot(),
+        pure_shear_toughness=pure_shear_toughness,
+        force_label=force_label,
+    )
+    try:
+        figure.savefig(file, dpi=300)
+    except OSError as error:
+        raise InputError(f"{file} cannot be written ({error.strerror}); choose another.") from None
+
+
+def _require_matplotlib() -> None:
+    if find_spec("matplotlib") is None:
+        raise WirecutError(
+            "drawing needs matplotlib; install it with: pip install 'wirecut[plot]'."
+        )
+
+
+def _new_axes() -> Axes:
+    _require_matplotlib()
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=SINGLE_COLUMN, layout="constrained")
+    return ax
+
+
+def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
+    return ax.errorbar(
+        1e3 * fit.wire_radius,
+        fit.force,
+        yerr=fit.force_std,
+        fmt="s",
+        ms=4,
+        color=_BLUE,
+        mec="white",
+        mew=0.5,
+        capsize=2,
+        elinewidth=0.8,
+        zorder=3,
+        label=label,
+    )
+
+
+def _draw_fit(ax: Axes, fit: Identification, radius: NDArray[np.float64]) -> Iterator[Any]:
+    line = fit.predict(radius)
+    label = (
+        rf"$\Gamma_o$ = {fit.toughness:.3g} J/m$^2$, "
+        rf"$\tau_w$ = {1e-3 * fit.wear_strength:.3g} kPa"
+    )
+    yield from ax.plot(1e3 * radius, line, color=_RED, lw=1.2, label=label)
+    ax.plot([0.0], [fit.toughness], "o", ms=4, mfc="white", mec=_RED, zorder=4, clip_on=False)
+    low, high = fit.band(radius)
+    if np.any(high - low > 1e-9 * np.abs(line)):  # neither nan nor rounding
+        label = f"{100.0 * fit.confidence:.3g} % band"
+        yield ax.fill_between(1e3 * radius, low, high, color=_RED, alpha=0.18, lw=0, label=label)
+
+
+def _draw_references(
+    ax: Axes, fit: Identification, pure_shear_toughness: float | None
+) -> Iterator[Any]:
+    if pure_shear_toughness is not None:
+        label = rf"$\Gamma$ = {pure_shear_toughness:.3g} J/m$^2$"
+        yield ax.axhline(pure_shear_toughness, color="black", lw=0.8, ls="--", label=label)
+    if np.isfinite(fit.transition_radius):
+        label = rf"$R_w^*$ = {1e6 * fit.transition_radius:.3g} µm"
+        yield ax.axvline(1e3 * fit.transition_radius, color=_GREY, lw=0.8, ls=":", label=label)
+
+
+def _label(ax: Axes, largest_radius: float, handles: list[Any]) -> None:
+    ax.set_xlim(0.0, 1e3 * largest_radius)
+    ax.set_ylim(bottom=min(0.0, ax.dataLim.y0))
+    ax.set_xlabel("wire radius $R_w$ [mm]", fontsize=_MEDIUM)
+    ax.set_ylabel("cutting force $F_{ss}/T$ [N/m]", fontsize=_MEDIUM)
+    ax.tick_params(labelsize=_SMALL)
+    ax.spines[["top", "right"]].set_visible(False)
+    # Above the axes, where no data can be, whatever the line's slope.
+    ax.legend(
+        handles=handles,
+        loc="lower left",
+        bbox_to_anchor=(-0.1, 1.0),
+        ncols=2,
+        fontsize=_SMALL,
+        frameon=False,
+        handlelength=1.6,
+        columnspacing=1.0,
+        borderaxespad=0.2,
+    )

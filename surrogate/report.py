@@ -1,0 +1,280 @@
+"""Results as records for machines (JSON, SI units) and as tables for people."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from surrogate.data import Material
+from surrogate.force import CuttingForce
+from surrogate.force_models import FORCE_MODELS
+from surrogate.identification import Identification
+from surrogate.radii import fracto_cohesive_transition_radius
+from surrogate.regimes import Regime, classify
+from surrogate.scene import Scene
+
+Record: TypeAlias = "dict[str, Any]"
+
+
+def force_record(scene: Scene, force: CuttingForce) -> Record:
+    """Return the force on each wire [N/m] and its parts."""
+    wires = _rows(
+        wire_radius=scene.wire_radius,
+        dimensionless_toughness=scene.dimensionless_toughness,
+        total=force.total,
+        cleavage=force.cleavage,
+        friction=force.friction,
+        wear=force.wear,
+        in_domain=force.in_domain,
+    )
+    return {"model": force.model, "relative_error": force.relative_error, "wires": wires}
+
+
+def force_text(record: Record) -> str:
+    """Return a table of `force_record`."""
+    header = ("R_w [mm]", "g [-]", "F_ss/T [N/m]", "cleavage", "friction", "wear", "model holds")
+    rows = [
+        (
+            _number(1e3 * wire["wire_radius"]),
+            *(
+                _number(wire[key])
+                for key in ("dimensionless_toughness", "total", "cleavage", "friction", "wear")
+            ),
+            "yes" if wire["in_domain"] else "no",
+        )
+        for wire in record["wires"]
+    ]
+    return f"Model {record['model']}, {FORCE_MODELS[record['model']].equation}\n" + _table(
+        header, rows
+    )
+
+
+def regime_record(scene: Scene, regime: Regime) -> Record:
+    """Return the regime of each wire."""
+    wires = _rows(
+        wire_radius=scene.wire_radius,
+        dimensionless_toughness=scene.dimensionless_toughness,
+        dominant=regime.dominant,
+        contact=regime.contact,
+    )
+    return {"threshold": regime.threshold, "wires": wires}
+
+
+def regime_text(record: Record) -> str:
+    """Return a table of `regime_record`."""
+    header = ("R_w [mm]", "g [-]", "dominant term", "contact")
+    rows = [
+        (
+            _number(1e3 * wire["wire_radius"]),
+            _number(wire["dimensionless_toughness"]),
+            wire["dominant"],
+            wire["contact"],
+        )
+        for wire in record["wires"]
+    ]
+    return _table(header, rows) + (
+        f"\nA term dominates from {record['threshold']:.3g} of the force of Eq. (13) on."
+    )
+
+
+def models_record() -> Record:
+    """Return the force models."""
+    return {
+        "models": [
+            {"name": name, "equation": model.equation, "domain": model.domain}
+            for name, model in FORCE_MODELS.items()
+        ]
+    }
+
+
+def models_text(record: Record) -> str:
+    """Return a table of `models_record`."""
+    rows = [(model["name"], model["equation"], model["domain"]) for model in record["models"]]
+    return _table(("model", "equation", "holds for"), rows)
+
+
+def identification_record(fit: Identification, material: Material) -> Record:
+    """Return estimates, lengths, transition radii, wires and warnings of an identification."""
+    return {
+        "model": fit.model,
+        "friction_coefficient": fit.friction_coefficient,
+        "shear_modulus": fit.shear_modulus,
+        "shear_modulus_std": material.shear_modulus_std,
+        "pure_shear_toughness": material.pure_shear_toughness,
+        "pure_shear_toughness_std": material.pure_shear_toughness_std,
+        "work_of_fracture": material.work_of_fracture,
+        "work_of_fracture_std": material.work_of_fracture_std,
+        "confidence": fit.confidence,
+        "toughness": fit.toughness,
+        "toughness_std": fit.toughness_std,
+        "toughness_interval": fit.toughness_interval,
+        "wear_strength": fit.wear_strength,
+        "wear_strength_std": fit.wear_strength_std,
+        "wear_strength_interval": fit.wear_strength_interval,
+        "covariance": fit.covariance.tolist(),
+        "correlation": fit.correlation,
+        "r_squared": fit.r_squared,
+        "reduced_chi_squared": fit.reduced_chi_squared,
+        "lengths": _lengths(fit, material),
+        "transition_radii": _transition_radii(fit, material),
+        "wires": _identified_wires(fit),
+        "warnings": list(fit.warnings),
+    }
+
+
+def _lengths(fit: Identification, material: Material) -> dict[str, float]:
+    toughnesses = {"Gamma_o": fit.toughness}
+    if material.pure_shear_toughness is not None:
+        toughnesses["Gamma"] = material.pure_shear_toughness
+    lengths = {"l_w = Gamma_o/tau_w": fit.wear_length}
+    if material.work_of_fracture:
+        for symbol, toughness in toughnesses.items():
+            lengths[f"l_f = {symbol}/W_f"] = toughness / material.work_of_fracture
+    for symbol, toughness in toughnesses.items():
+        lengths[f"l_e = {symbol}/mu"] = toughness / fit.shear_modulus
+    return lengths
+
+
+def _transition_radii(fit: Identification, material: Material) -> dict[str, float]:
+    radii = {
+        "Eq. (13), both terms equal": fit.transition_radius,
+        "l_w/4": fit.wear_transition_radius,
+    }
+    if material.work_of_fracture and material.pure_shear_toughness:
+        radii["l_f/4 with Gamma"] = float(
+            fracto_cohesive_transition_radius(
+                material.pure_shear_toughness, material.work_of_fracture
+            )
+        )
+    return radii
+
+
+def _identified_wires(fit: Identification) -> list[Record]:
+    regime: dict[str, Any] = {}
+    if fit.is_physical:
+        classes = classify(fit.scene(fit.wire_radius))
+        regime = {"dominant": classes.dominant, "contact": classes.contact}
+    return _rows(
+        wire_radius=fit.wire_radius,
+        dimensionless_toughness=fit.dimensionless_toughness,
+        force=fit.force,
+        residual=fit.residuals,
+        **regime,
+    )
+
+
+def identification_text(record: Record) -> str:
+    """Return what `identification_record` says, for people.
+
+    The record also names the `file` and the origin of the `forces`, and the `picture` or None.
+    """
+    return "\n\n".join(
+        section
+        for section in (
+            f"{len(record['wires'])} forces, {record['forces']}, from {record['file']}",
+            _properties_text(record),
+            _estimates_text(record),
+            _lengths_text("Length", record["lengths"]),
+            _lengths_text("Transition radius R_w*", record["transition_radii"]),
+            _wires_text(record["wires"]),
+            _warnings_text(record["warnings"]),
+            f"Figure written to {record['picture']}" if record["picture"] else "",
+        )
+        if section
+    )
+
+
+def _properties_text(record: Record) -> str:
+    shown = [
+        ("shear modulus mu", "shear_modulus", 1.0, "Pa"),
+        ("toughness Gamma, pure shear", "pure_shear_toughness", 1.0, "J/m2"),
+        ("work of fracture W_f", "work_of_fracture", 1e-3, "kJ/m3"),
+        ("friction coefficient xi", "friction_coefficient", 1.0, "-"),
+    ]
+    rows = []
+    for name, key, scale, unit in shown:
+        if (value := record[key]) is not None:
+            std = record.get(f"{key}_std")
+            error = f" +- {_number(scale * std)}" if std is not None else ""
+            rows.append((name, f"{_number(scale * value)}{error}", unit))
+    return _table(("Given", "value", "unit"), rows)
+
+
+def _estimates_text(record: Record) -> str:
+    rows = []
+    for name, key, scale, unit in (
+        ("cleavage toughness Gamma_o", "toughness", 1.0, "J/m2"),
+        ("wear strength tau_w", "wear_strength", 1e-3, "kPa"),
+    ):
+        low, high = record[f"{key}_interval"]
+        rows.append(
+            (
+                name,
+                _number(scale * record[key]),
+                unit,
+                _small_number(scale * record[f"{key}_std"], scale * record[key]),
+                f"{_number(scale * low)} to {_number(scale * high)}",
+            )
+        )
+    interval = f"{100.0 * record['confidence']:.4g} % interval"
+    header = (f"Identified ({record['model']})", "value", "unit", "std. error", interval)
+    quality = f"correlation {_number(record['correlation'])}, R^2 = {record['r_squared']:.4f}"
+    if record["reduced_chi_squared"] is not None:
+        quality += f", chi^2/dof = {_number(record['reduced_chi_squared'])}"
+    return f"{_table(header, rows)}\n{quality}"
+
+
+def _lengths_text(title: str, lengths: Mapping[str, float]) -> str:
+    rows = [(name, _number(1e6 * length)) for name, length in lengths.items()]
+    return _table((title, "um"), rows)
+
+
+def _wires_text(wires: Sequence[Record]) -> str:
+    header = ("R_w [mm]", "g [-]", "F_ss/T [N/m]", "residual", "dominant term", "contact")
+    rows = [
+        (
+            _number(1e3 * wire["wire_radius"]),
+            _number(wire["dimensionless_toughness"]),
+            _number(wire["force"], digits=5),
+            _small_number(wire["residual"], wire["force"]),
+            wire.get("dominant", "-"),
+            wire.get("contact", "-"),
+        )
+        for wire in wires
+    ]
+    return _table(header, rows)
+
+
+def _warnings_text(warnings: Iterable[str]) -> str:
+    return "\n".join(f"Warning: {sentence}." for sentence in warnings)
+
+
+def _rows(**columns: Any) -> list[Record]:
+    """Return one record for each wire out of numbers and arrays that broadcast together."""
+    arrays = np.broadcast_arrays(*map(np.atleast_1d, columns.values()))
+    return [
+        dict(zip(columns, values, strict=True))
+        for values in zip(*(array.tolist() for array in arrays), strict=True)
+    ]
+
+
+def _number(value: float, digits: int = 4) -> str:
+    """Four digits for people; no answer where there is none."""
+    return "unknown" if math.isnan(value) else f"{value:.{digits}g}"
+
+
+def _small_number(value: float, reference: float) -> str:
+    """Two digits; 0 for what is only rounding beside the reference."""
+    return "0" if abs(value) < 1e-12 * abs(reference) else _number(value, digits=2)
+
+
+def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = [header, *rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(header))]
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    )

@@ -1,0 +1,165 @@
+"""The command line as its users meet it: its own examples, its numbers, its complaints."""
+
+import io
+import json
+import re
+import shlex
+import subprocess
+import sys
+
+import pytest
+
+from surrogate import __version__
+from surrogate.cli import main
+from surrogate.paths import model_file
+
+COMMANDS = ["force", "identify", "regime", "models"]
+SCENE = "--shear-modulus 685Pa --toughness 1.6J/m2 --wear-strength 7.75kPa"
+
+
+def run(command):
+    return main(shlex.split(command))
+
+
+def help_text(command, capsys):
+    with pytest.raises(SystemExit) as stop:
+        run(f"{command} --help")
+    assert stop.value.code == 0
+    return capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = help_text(command, capsys)
+    if table := re.search(r"for instance (\S+):\n\n((?:  \S+\n)+)", text):
+        (tmp_path / table[1]).write_text(table[2].replace("  ", ""))
+    examples = re.findall(r"^  wirecut (.+)$", text.replace("\\\n", ""), flags=re.MULTILINE)
+    assert examples
+    for example in examples:
+        assert run(example) == 0
+        assert capsys.readouterr().out
+
+
+def test_example_prints_the_papers_numbers(capsys):
+    assert run("identify --example") == 0
+    printed = capsys.readouterr().out
+    for line in (
+        "5 forces, read from the published line, from paam-wire-cutting.csv",
+        r"cleavage toughness Gamma_o +1\.6 +J/m2",
+        r"wear strength tau_w +7\.75 +kPa",
+        r"l_w = Gamma_o/tau_w +206\.5",
+        r"l_f = Gamma_o/W_f +229\.5",
+        r"l_f = Gamma/W_f +372\.9",
+        r"l_e = Gamma_o/mu +2336",
+        r"l_e = Gamma/mu +3796",
+        r"Eq\. \(13\), both terms equal +51\.61",
+        r"l_w/4 +51\.61",
+        r"l_f/4 with Gamma +93\.22",
+        r"0\.125 +18\.69 +5\.475 +0 +wear +indentation",
+        r"Warning: 5 of 5 wires cut at g",
+    ):
+        assert re.search(line, printed), line
+
+
+def test_json_of_identify_holds_the_same_in_si_units(capsys):
+    assert run("identify --example --json") == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["toughness"] == pytest.approx(1.6)
+    assert record["wear_strength"] == pytest.approx(7750.0)
+    assert record["transition_radii"]["l_f/4 with Gamma"] == pytest.approx(93.2e-6, rel=1e-3)
+    assert [wire["wire_radius"] for wire in record["wires"]][-1] == 0.47e-3
+
+
+def test_json_knows_no_nan(capsys, tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n0.1,2\n0.2,3\n")
+    assert run(f"identify {file} --shear-modulus 685 --json") == 0
+    record = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert record["toughness"] == pytest.approx(1.0)
+    assert record["toughness_std"] is None
+
+
+def test_force_and_regime_of_several_wires(capsys):
+    assert run(f"force {SCENE} --wire-radius 0.2mm 0.4mm --json") == 0
+    wires = json.loads(capsys.readouterr().out)["wires"]
+    assert [wire["total"] for wire in wires] == pytest.approx([1.6 + 6.2, 1.6 + 12.4])
+    assert run(f"regime {SCENE} --wire-diameter 50um 0.5mm --json") == 0
+    wires = json.loads(capsys.readouterr().out)["wires"]
+    assert [wire["wire_radius"] for wire in wires] == [25e-6, 0.25e-3]
+    assert [wire["dominant"] for wire in wires] == ["toughness-and-friction", "wear"]
+
+
+def test_options_replace_the_properties_of_a_file(capsys):
+    material = model_file("paam-material.json")
+    table = model_file("paam-wire-cutting.csv")
+    command = f"identify {table} --material {material} --shear-modulus 1kPa --json"
+    assert run(command) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert (record["shear_modulus"], record["shear_modulus_std"]) == (1000.0, None)
+    assert (record["work_of_fracture"], record["work_of_fracture_std"]) == (6973.0, 500.0)
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_plot(ending, capsys, tmp_path):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / f"fit.{ending}"
+    assert run(f"identify --example --plot {picture}") == 0
+    assert picture.stat().st_size > 5000
+    assert f"Figure written to {picture}" in capsys.readouterr().out
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as stop:
+        run("--version")
+    assert stop.value.code == 0
+    assert capsys.readouterr().out == f"wirecut {__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("", "COMMAND"),
+        ("cut", "invalid choice: 'cut'"),
+        ("force", "--shear-modulus"),
+        (f"force {SCENE}", "--wire-radius"),
+        (f"force {SCENE} --wire-radius 1mm --wire-diameter 2mm", "not allowed with"),
+        (f"force {SCENE} --wire-radius 1furlong", "one of m, cm, mm, um"),
+        (f"force {SCENE} --wire-radius 1kPa", "not a length"),
+        (f"force {SCENE} --wire-radius 1mm --friction-coefficient 10%", "no unit"),
+        (f"force {SCENE} --wire-radius 1mm --model eq99", "eq99"),
+        (f"force {SCENE} --wire-radius 1e400", "wire_radius"),
+        ("force --shear 685Pa --toughness 1 --wire-radius 1mm", "--shear-modulus"),
+        ("identify", "FILE"),
+        ("identify missing.csv --shear-modulus 1Pa", "missing.csv cannot be read"),
+        (f"identify {model_file('paam-wire-cutting.csv')}", "shear modulus is missing"),
+        ("identify --example --confidence 95", "0.95 for 95 %"),
+        ("identify --example --model power-law", "not linear"),
+        ("identify --example --plot fit.doc", "choose .png, .pdf or .svg"),
+        ("identify --example --plot missing/fit.png", "cannot be written"),
+        ("identify --example --material missing.json", "missing.json cannot be read"),
+    ],
+)
+def test_bad_input_ends_in_one_line_and_code_2(command, words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(command) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert streams.err.startswith("wirecut: ")
+    assert streams.err.count("\n") == 1
+    assert words in streams.err
+
+
+def test_a_reader_that_leaves_early_meets_no_traceback():
+    command = [sys.executable, "-m", "surrogate.cli", "identify", "--example", "--json"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.close()
+    _, errors = process.communicate(timeout=60)
+    assert errors == b""
+
+
+def test_output_is_ascii(capsys):
+    """So that it can be printed on any terminal."""
+    for command in ("identify --example", "models", f"regime {SCENE} --wire-radius 1mm"):
+        run(command)
+    assert io.StringIO(capsys.readouterr().out).read().isascii()

@@ -1,0 +1,75 @@
+"""The figure: what it shows, what it leaves alone, and that nothing lies on anything else."""
+
+import numpy as np
+import pytest
+
+from surrogate import identify, plot_identification
+from surrogate.errors import WirecutError
+from surrogate.plots import SINGLE_COLUMN, save_identification
+
+matplotlib = pytest.importorskip("matplotlib")
+matplotlib.use("agg")
+
+RADIUS = np.array([0.1, 0.2, 0.3, 0.5]) * 1e-3
+RISING = [4.9, 7.2, 11.8, 16.5]
+FALLING = [9.0, 7.2, 6.1, 3.9]
+
+
+def draw(force, **options):
+    fit = identify(RADIUS, force, 685.0, **options)
+    ax = matplotlib.figure.Figure(figsize=SINGLE_COLUMN, layout="constrained").add_subplot()
+    return fit, plot_identification(fit, ax, pure_shear_toughness=2.6)
+
+
+def labels(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_fit_band_references_and_measurements_are_shown():
+    fit, ax = draw(RISING, force_std=0.5)
+    shown = labels(ax)
+    assert shown[0] == "measured"
+    assert f"{fit.toughness:.3g} J/m" in shown[1]
+    assert shown[2] == "95 % band"
+    assert "2.6 J/m" in shown[3]
+    assert f"{1e6 * fit.transition_radius:.3g} µm" in shown[4]
+    drawn = [line.get_ydata() for line in ax.get_lines() if len(line.get_ydata()) > 100]
+    assert len(drawn) == 1
+    assert drawn[0][0] == pytest.approx(fit.toughness, rel=1e-4)
+
+
+def test_no_transition_radius_where_an_estimate_is_negative():
+    _, ax = draw(FALLING)
+    assert not any("R_w^*" in label for label in labels(ax))
+
+
+@pytest.mark.parametrize("force", [RISING, FALLING])
+def test_nothing_overlaps_and_nothing_is_cut_off(force):
+    _, ax = draw(force, force_std=0.5)
+    figure = ax.figure
+    figure.draw_without_rendering()
+    legend = ax.get_legend().get_window_extent()
+    assert not legend.overlaps(ax.get_window_extent())
+    whole = figure.bbox
+    for box in (legend, ax.get_tightbbox()):
+        assert whole.x0 <= box.x0
+        assert box.x1 <= whole.x1
+        assert whole.y0 <= box.y0
+        assert box.y1 <= whole.y1
+    assert ax.get_ylim()[0] <= 0.0
+    assert ax.get_xlim()[1] > 1e3 * RADIUS.max()
+
+
+def test_returns_the_axes_given_and_leaves_the_rest_alone():
+    before = matplotlib.rcParams.copy()
+    _, ax = draw(RISING)
+    assert matplotlib.rcParams == before
+    new = plot_identification(identify(RADIUS, RISING, 685.0))
+    assert new is not ax
+    matplotlib.pyplot.close(new.figure)
+
+
+def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
+    monkeypatch.setattr("surrogate.plots.find_spec", lambda name: None)
+    with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
+        save_identification(identify(RADIUS, RISING, 685.0), tmp_path / "fit.png")
