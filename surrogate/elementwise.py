@@ -28,6 +28,8 @@ __all__ = [
     "dense",
     "evaluate",
     "evaluate_checked",
+    "exp",
+    "log",
     "product",
     "proportion",
     "quotient",
@@ -167,8 +169,23 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
     return chosen if isinstance(chosen, np.ndarray) else float(chosen)
 
 
+def log(x: Any) -> Any:
+    """Return the natural logarithm; minus infinity of 0."""
+    if type(x) is not float:
+        return np.log(dense(x))
+    return float(np.log(x)) if x else -math.inf
+
+
+def exp(x: Any) -> Any:
+    """Return the exponential."""
+    return np.exp(dense(x)) if type(x) is not float else float(np.exp(x))
+
+
 def dense(x: Any) -> Any:
-    """Return contiguous numbers: numpy's transcendental functions may round others differently."""
+    """Return contiguous numbers: numpy's transcendental functions may round others differently.
+
+    For the same reason there is no use of `math`, whose functions are not numpy's.
+    """
     return np.ascontiguousarray(x) if isinstance(x, np.ndarray) else x
 
 

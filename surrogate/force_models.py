@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.elementwise import dense, product, where
+from surrogate.elementwise import exp, log, product, where
 from surrogate.equations import TABLE_1, TABULATED_STIFFENING, table_1_exponent
 from surrogate.errors import UnknownModelError
 from surrogate.validation import STIFFENING_EXPONENT, Quantity
@@ -118,9 +118,8 @@ class PowerLaw(ForceModel):
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return friction xi Gamma_o g^(n - 1) and no wear; no friction where Gamma_o = 0."""
         excess = table_1_exponent(alpha) - 1.0
-        with np.errstate(all="ignore"):  # logarithms cannot overflow as g would
-            log_g = np.log(dense(gamma)) - (np.log(dense(mu)) + np.log(dense(radius)))
-            power = np.exp(dense(excess * log_g))
+        log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
+        power = exp(excess * log_g)
         power = where(excess == 0.0, 1.0, power)
         friction = product(xi, gamma, power)
         return where((xi == 0.0) | (gamma == 0.0), 0.0, friction), 0.0
