@@ -262,8 +262,12 @@ def _rows(**columns: Any) -> list[Record]:
 
 
 def _number(value: float, digits: int = 4) -> str:
-    """Four digits for people; no answer where there is none."""
-    return "unknown" if math.isnan(value) else f"{value:.{digits}g}"
+    """A few digits for people, without an exponent where none is needed."""
+    if math.isnan(value):
+        return "unknown"
+    if 1e-3 <= abs(value) < 1e6:
+        return np.format_float_positional(value, digits, fractional=False, trim="-")
+    return f"{value:.{digits}g}"
 
 
 def _small_number(value: float, reference: float) -> str:
