@@ -1,6 +1,7 @@
 """The transition radii below which a sharper wire cuts no more easily: three definitions.
 
-The paper writes R_w* for two of them and Eq. (13) defines the third; they differ.
+The paper writes R_w* for two of them and Eq. (13) defines the third; they differ. Each has the
+common shape of the quantities that it depends on, whatever the shape of the wires' radii.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ def transition_radius(scene: Scene) -> FloatOrArray:
     Parameters
     ----------
     scene : Scene
-        What is cut, in SI units; its wire radius [m] plays no part but for its shape.
+        What is cut, in SI units; mu [Pa], Gamma_o [J/m^2], xi [-] and tau_w [Pa] play a part.
 
     Returns
     -------
@@ -48,7 +49,13 @@ def transition_radius(scene: Scene) -> FloatOrArray:
     >>> print(f"{radius:.4e} m")
     5.6277e-05 m
     """
-    radius = apply(_transition, scene.values())
+    quantities = (
+        scene.shear_modulus,
+        scene.toughness,
+        scene.friction_coefficient,
+        scene.wear_strength,
+    )
+    radius = apply(_transition, quantities)
     return defined("transition_radius", radius, "give a toughness, a friction or a wear strength")
 
 
@@ -128,7 +135,7 @@ def fracto_cohesive_transition_radius(
     return 0.25 * defined("fracto_cohesive_transition_radius", length, remedy)
 
 
-def _transition(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+def _transition(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
     # Divided by 1 + xi, the denominator is a mean of mu and tau_w, which cannot overflow.
     mean = (xi / (1.0 + xi)) * mu + wear / (1.0 + xi)
     return 0.25 * ratio(gamma, mean)

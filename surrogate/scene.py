@@ -40,7 +40,7 @@ class Scene(Record):
     """A soft solid and the wire that cuts it, in SI units.
 
     Numbers become Python floats. Arrays become read-only views, not copies, of float64 arrays;
-    they broadcast together.
+    they broadcast together. What is derived has the common shape of what it depends on.
 
     Parameters
     ----------

@@ -12,6 +12,7 @@ unit, and the remedy.
 
 from __future__ import annotations
 
+import reprlib
 import sys
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -111,12 +112,9 @@ class Quantity:
         kind = type(value).__name__
         if array is not None and array.ndim:
             kind += f" of {array.dtype}"
-        shown = repr(value)
-        if len(shown) > 60:
-            shown = shown[:57] + "..."
         return InputError(
             f"{self.name} must be a real number or an array of real numbers, "
-            f"but {self.name} = {shown} ({kind}); {self.remedy}."
+            f"but {self.name} = {_shown(value)} ({kind}); {self.remedy}."
         )
 
     def _range(self) -> str:
@@ -131,12 +129,21 @@ class Quantity:
 
 def _plain_array(value: object) -> NDArray[Any] | None:
     """Return `value` as numpy reads it, or None where it reads no plain array."""
-    if hasattr(value, "mask"):  # a masked array: its hidden entries have no value to use
+    masked = sys.modules.get("numpy.ma")  # which numpy itself may not have loaded
+    if masked and isinstance(value, masked.MaskedArray):  # hidden entries have no value to use
         return None
     try:
         return np.asarray(value)
     except (ValueError, TypeError, OverflowError):  # ragged lists
         return None
+
+
+def _shown(value: object) -> str:
+    """Return a representation on one short line."""
+    try:
+        return " ".join(reprlib.repr(value).split())
+    except Exception:  # integers of thousands of digits have none, and anything may lack one
+        return "..."
 
 
 def broadcast_shape(names: tuple[str, ...], values: tuple[FloatOrArray, ...]) -> tuple[int, ...]:

@@ -36,7 +36,7 @@ def test_the_terms_are_equal_at_the_transition(xi):
 
 
 def test_radii_of_arrays():
-    scene = Scene(685.0, 1.6, 1e-4, [0.0, 0.1], [[7750.0], [0.0]])
+    scene = Scene(685.0, 1.6, np.ones((5, 1, 1)), [0.0, 0.1], [[7750.0], [0.0]])
     radii = transition_radius(scene)
     assert radii.shape == (2, 2)
     assert radii[1, 0] == np.inf
