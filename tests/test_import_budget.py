@@ -1,0 +1,47 @@
+"""`import surrogate` loads numpy and the standard library, and only the part in use."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import surrogate
+
+LOADED_BY_IMPORT = """
+import sys
+import numpy
+before = set(sys.modules)
+import surrogate
+print(*sorted(set(sys.modules) - before))
+"""
+
+
+def loaded(code):
+    command = [sys.executable, "-W", "error", "-c", code]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+
+
+def test_nothing_but_the_standard_library_and_numpy_is_loaded():
+    packages = {module.partition(".")[0] for module in loaded(LOADED_BY_IMPORT)}
+    assert packages - set(sys.stdlib_module_names) <= {"surrogate", "numpy"}
+
+
+def test_what_a_force_does_not_need_is_not_loaded():
+    modules = set(loaded(LOADED_BY_IMPORT))
+    heavy = {"numpy.ma", "argparse", "json", "csv", "importlib.metadata", "asyncio", "unittest"}
+    lazy = {f"surrogate.{module}" for module in set(surrogate._LAZY.values()) | {"cli", "paths"}}
+    assert not modules & (heavy | lazy)
+
+
+def test_every_public_name_is_there():
+    for name in surrogate.__all__:
+        assert getattr(surrogate, name) is not None
+    assert set(surrogate.__all__) <= set(dir(surrogate))
+    assert not hasattr(surrogate, "no_such_name")
+
+
+def test_the_version_is_the_distributions():
+    project = Path(__file__).parent.parent / "pyproject.toml"
+    version = re.search(r'^version = "(.+)"$', project.read_text(encoding="utf-8"), re.MULTILINE)
+    assert version
+    assert surrogate.__version__ == version[1]
