@@ -82,6 +82,11 @@ def test_power_law_has_its_exponent_as_logarithmic_slope():
     assert surrogate.power_law_dissipation(1.0, 0.3, 1.06) == 0.3
 
 
+def test_power_law_without_friction_is_nothing_even_where_the_power_overflows():
+    assert surrogate.power_law_dissipation(1e300, 0.0, 1.18) == 0.0
+    assert surrogate.power_law_dissipation([1e300], [0.0, 1.0], 1.18).tolist() == [0.0, np.inf]
+
+
 def test_power_law_with_exponent_one_is_the_high_toughness_friction():
     dissipation = surrogate.power_law_dissipation(GAMMA / (MU * RADII), 0.1, 1.0)
     friction = surrogate.high_toughness_force(GAMMA, 0.1) - GAMMA

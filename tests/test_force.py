@@ -107,6 +107,13 @@ def test_unknown_models_are_told_the_known_ones(model):
             call()
 
 
+@pytest.mark.parametrize("model", FORCE_MODELS)
+def test_parts_of_like_size_add_up_to_the_last_bit(model):
+    random = np.random.default_rng(7)
+    force = cutting_force(Scene(*random.uniform(1.0, 2.0, (5, 1000))), model)
+    np.testing.assert_array_equal(force.total, force.cleavage + force.friction + force.wear)
+
+
 def test_a_scene_is_needed():
     with pytest.raises(surrogate.InputError, match="scene must be a Scene"):
         cutting_force(685.0)
@@ -157,10 +164,10 @@ def test_nothing_costs_nothing(model):
     assert cutting_force(Scene(0.0, 0.0, 0.0), model).total == 0.0
 
 
-@pytest.mark.parametrize(("alpha", "friction"), [(2.0, np.inf), (9.0, 0.0)])
+@pytest.mark.parametrize(("alpha", "friction"), [(2.0, np.inf), (7.4, XI * GAMMA), (9.0, 0.0)])
 @pytest.mark.parametrize("thing", ["shear_modulus", "wire_radius"])
 def test_power_law_friction_of_a_vanishing_radius_or_modulus(thing, alpha, friction):
-    # xi Gamma_o g^(n-1) with g infinite: n = 1.18 diverges, n = 0.96 vanishes.
+    # xi Gamma_o g^(n-1) with g infinite: n = 1.18 diverges, n = 1 stays, n = 0.96 vanishes.
     quantities = {"shear_modulus": MU, "toughness": GAMMA, "wire_radius": RADIUS, thing: 0.0}
     scene = Scene(**quantities, friction_coefficient=XI, stiffening_exponent=alpha)
     assert cutting_force(scene, "power-law").friction == friction
