@@ -24,6 +24,8 @@ from surrogate.units import (
     parse_number,
 )
 
+__all__ = ["Material", "Measurements", "read_material", "read_measurements"]
+
 _LONGEST_LINE = 10_000
 _LARGEST_MATERIAL_FILE = 100_000
 _MATERIAL_SCHEMA = "wirecut-material-1"
@@ -181,8 +183,11 @@ def _read_table(file: str, stream: BinaryIO) -> dict[str, NDArray[np.float64]]:
                 "give one a column, with a decimal point where there is a decimal comma."
             )
         for column, cell in zip(columns, cells, strict=True):
-            place = f"{file}, line {line}, column {column.number} ({column.name})"
-            column.values.append(_positive(place, cell, column.power))
+            value = parse_number(cell, column.power)
+            if value is None or not 0.0 < value < np.inf:
+                place = f"{file}, line {line}, column {column.number} ({column.name})"
+                raise _refused(place, cell, value)
+            column.values.append(value)
     if not columns[0].values:
         raise InputError(
             f"{file}, line {header_line} is a header without measurements; write one line a wire."
@@ -258,20 +263,17 @@ def _quantity_and_power(place: str, name: str, quantities: dict[str, Dimension])
     raise InputError(f"{place} ({name!r}) is not known; name one of {', '.join(quantities)}.")
 
 
-def _positive(place: str, cell: str, power: int) -> float:
+def _refused(place: str, cell: str, value: float | None) -> InputError:
     if not cell:
-        raise InputError(f"{place} is empty; fill the gap or delete the line.")
-    value = parse_number(cell, power)
+        return InputError(f"{place} is empty; fill the gap or delete the line.")
     if value is None:
-        raise InputError(
+        return InputError(
             f"{place}: {cell[:40]!r} is not a number; write digits with a decimal point."
         )
-    if not 0.0 < value < np.inf:
-        raise InputError(
-            f"{place}: {cell[:40]} is not a positive number within a computer's range; "
-            "correct it, and turn the sign if your machine counts compression as negative."
-        )
-    return value
+    return InputError(
+        f"{place}: {cell[:40]} is not a positive number within a computer's range; "
+        "correct it, and turn the sign if your machine counts compression as negative."
+    )
 
 
 def read_material(path: str | PathLike[str]) -> Material:

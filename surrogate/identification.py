@@ -17,6 +17,8 @@ from surrogate.scene import Scene
 from surrogate.statistics import normal_quantile, student_quantile
 from surrogate.validation import Quantity
 
+__all__ = ["Identification", "identify"]
+
 Array = NDArray[np.float64]
 
 # Within these limits no square or product of a fit leaves the range of a float.

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from surrogate.errors import InputError
 
+__all__ = ["model_file", "models_folder"]
+
 _PACKAGE = Path(__file__).resolve().parent
 
 

@@ -17,6 +17,8 @@ from surrogate.identification import Identification
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+__all__ = ["plot_identification", "save_identification"]
+
 SINGLE_COLUMN = (3.4, 2.9)
 """Width and height of a figure that fills one column of a journal [inch]."""
 

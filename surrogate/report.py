@@ -210,17 +210,13 @@ def _estimates_text(record: Record) -> str:
         ("wear strength tau_w", "wear_strength", 1e-3, "kPa"),
     ):
         low, high = record[f"{key}_interval"]
-        rows.append(
-            (
-                name,
-                _number(scale * record[key]),
-                unit,
-                _small_number(scale * record[f"{key}_std"], scale * record[key]),
-                f"{_number(scale * low)} to {_number(scale * high)}",
-            )
-        )
-    interval = f"{100.0 * record['confidence']:.4g} % interval"
-    header = (f"Identified ({record['model']})", "value", "unit", "std. error", interval)
+        std = _small_number(scale * record[f"{key}_std"], scale * record[key])
+        interval = f"{_number(scale * low)} to {_number(scale * high)}"
+        if std == "0":
+            std = interval = "no scatter"
+        rows.append((name, _number(scale * record[key]), unit, std, interval))
+    title, probability = f"Identified ({record['model']})", f"{100.0 * record['confidence']:.4g} %"
+    header = (title, "value", "unit", "std. error", f"{probability} interval")
     quality = f"correlation {_number(record['correlation'])}, R^2 = {record['r_squared']:.4f}"
     if record["reduced_chi_squared"] is not None:
         quality += f", chi^2/dof = {_number(record['reduced_chi_squared'])}"

@@ -7,6 +7,8 @@ from statistics import NormalDist
 
 import numpy as np
 
+__all__ = ["normal_quantile", "student_quantile"]
+
 _LARGEST_SUMMED = 1000
 """Degrees of freedom up to which the finite sum is used; a series in 1/dof above."""
 
