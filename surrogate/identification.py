@@ -270,7 +270,8 @@ def identify(
     Notes
     -----
     Range of validity: that of the force model. Eq. (13) takes its wear term from Eq. (11), which
-    the paper found for g <= 1; beyond it a warning is given. A negative estimate is reported as it is.
+    the paper found for g <= 1; beyond it a warning is given. A negative estimate is reported as it
+    is.
 
     References
     ----------
