@@ -508,20 +508,21 @@ def _low_toughness_dissipation(xi: Any, relative_wear: Any) -> Any:
 
 
 def _low_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return gamma + _linear_term(mu, radius, xi, wear)
+    slope = 4.0 * (xi * mu + wear)
+    linear = slope * radius if all_normal(slope) else _by_terms(slope, mu, radius, xi, wear)
+    return gamma + linear
 
 
 def _general(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return (gamma + xi * gamma) + _linear_term(mu, radius, xi, wear)
-
-
-def _linear_term(mu: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    """Return 4 (xi mu + tau_w) R_w."""
     slope = 4.0 * (xi * mu + wear)
-    if all_normal(slope):
-        return slope * radius
-    by_terms = 4.0 * product(radius, xi, mu) + 4.0 * (wear * radius)
-    return where_normal(slope, slope * radius, by_terms)
+    linear = slope * radius if all_normal(slope) else _by_terms(slope, mu, radius, xi, wear)
+    return (gamma + xi * gamma) + linear
+
+
+def _by_terms(slope: Any, mu: Any, radius: Any, xi: Any, wear: Any) -> Any:
+    """Return 4 (xi mu + tau_w) R_w where the sum in brackets over- or underflows."""
+    terms = 4.0 * product(radius, xi, mu) + 4.0 * (wear * radius)
+    return where_normal(slope, slope * radius, terms)
 
 
 def _relative(radius: Any, length: Any, xi: Any, relative_wear: Any) -> Any:
