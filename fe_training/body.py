@@ -1,0 +1,201 @@
+"""The half body: unknowns, constraints and internal forces on P2/P1 (Taylor-Hood) triangles."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from skfem import Basis, ElementTriP1, ElementTriP2, MeshTri
+
+from . import kernels
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+#: Quadrature exact for polynomials of this degree; more changes no result beyond the mesh error.
+_DEGREE = 4
+#: Elements within this many notch radii may be inverted on the way to equilibrium.
+NOTCH_REACH = 3.0
+
+
+class Body:
+    """A discretised half body of one material.
+
+    Unknowns are the two displacement components of every node, then the pressure of every
+    vertex.  The ligament slides on the symmetry plane; of the outer arc the right half is held,
+    the left half is free, so that the volume of the wire can leave the body.
+
+    Parameters
+    ----------
+    mesh : skfem.MeshTri
+        From :func:`fe_training.mesh.crack_mesh`.
+    alpha : float
+        Strain-stiffening exponent [-].
+    bulk : float
+        Bulk term kappa beside the pressure [mu].
+    hold : {"right", "all", "none"}
+        The part of the outer arc that is held.
+    compiled : bool
+        Use the compiled element loop where numba is installed.
+    """
+
+    def __init__(
+        self,
+        mesh: MeshTri,
+        alpha: float,
+        bulk: float = 0.0,
+        hold: str = "right",
+        compiled: bool = True,
+    ) -> None:
+        self.mesh, self.alpha = mesh, float(alpha)
+        self.element_arrays = kernels.element_arrays(compiled)
+        basis = Basis(mesh, ElementTriP2(), intorder=_DEGREE)
+        pressure = basis.with_element(ElementTriP1())
+        self.nodes: Array = basis.doflocs.T.copy()
+        self.connectivity: Index = basis.element_dofs.T.astype(np.int64)
+        self.triangles: Index = pressure.element_dofs.T.astype(np.int64)
+        self.grad: Array = np.ascontiguousarray(
+            np.array([shape[0].grad for shape in basis.basis]).transpose(2, 3, 0, 1)
+        )
+        self.psi: Array = np.array([shape[0].value[0] for shape in pressure.basis]).T.copy()
+        self.dx: Array = basis.dx.copy()
+        self.bulk: Array = np.full(len(self.connectivity), float(bulk))
+        self._number_unknowns(basis, hold)
+
+    @property
+    def displacements(self) -> int:
+        """Number of displacement unknowns, held ones included."""
+        return 2 * len(self.nodes)
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns, held ones included."""
+        return self.displacements + self.mesh.p.shape[1]
+
+    @property
+    def notch_radius(self) -> float:
+        """Radius of the notch [R_w]."""
+        return float(np.hypot(*self.mesh.p).min())
+
+    @property
+    def outer_radius(self) -> float:
+        """Radius of the body [R_w]."""
+        return float(np.hypot(*self.mesh.p).max())
+
+    def _number_unknowns(self, basis: Basis, hold: str) -> None:
+        facets = self.mesh.boundary_facets()
+        middle = self.mesh.p[:, self.mesh.facets[:, facets]].mean(axis=1)
+        radius = np.hypot(*middle)
+        on_notch = radius < 1.001 * self.notch_radius
+        on_arc = (middle[1] > 0) & ~on_notch
+        on_face = on_notch | ((middle[1] == 0) & (middle[0] < 0))
+        face = np.unique(basis.get_dofs(facets=facets[on_face]).flatten())
+        self.face: Index = face[self._from_tip(face)]
+        held = np.zeros((len(self.nodes), 2), dtype=bool)
+        held[basis.get_dofs(facets=facets[~on_face & ~on_arc]).flatten(), 1] = True
+        arc = basis.get_dofs(facets=facets[on_arc]).flatten()
+        x = self.nodes[arc, 0]
+        keep = {"right": x >= 0, "all": x > -np.inf, "none": x > np.inf}[hold]
+        held[arc[keep]] = True
+        self.held = held
+        self.free: NDArray[np.bool_] = np.concatenate(
+            [~held.ravel(), np.ones(self.mesh.p.shape[1], dtype=bool)]
+        )
+
+    def _from_tip(self, face: Index) -> Index:
+        """Return the order of face nodes along the boundary, from the tip backwards."""
+        x, y = self.nodes[face].T
+        along_notch = np.where(np.hypot(x, y) < 1.001 * self.notch_radius, np.arctan2(y, x), np.pi)
+        return np.lexsort((-x, along_notch))
+
+    @cached_property
+    def beyond_notch(self) -> Index:
+        """Elements outside the first rings, where det F is kept positive on the way."""
+        centre = self.mesh.p[:, self.mesh.t].mean(axis=1)
+        return np.flatnonzero(np.hypot(*centre) > NOTCH_REACH * self.notch_radius)
+
+    @cached_property
+    def element_unknowns(self) -> Index:
+        """Global unknowns of each element, shape (elements, 15)."""
+        pairs = 2 * self.connectivity[:, :, None] + np.arange(2)
+        return np.hstack([pairs.reshape(len(pairs), -1), self.displacements + self.triangles])
+
+    @cached_property
+    def scale(self) -> Array:
+        """Factors that bring displacement and pressure equations to one size."""
+        radius = np.maximum(np.hypot(*self.mesh.p), self.notch_radius)
+        return np.concatenate([np.ones(self.displacements), 1.0 / radius])
+
+    @cached_property
+    def _pattern(self) -> tuple[Index, Index, Index, Index]:
+        """Row, column, row pointers of the free block, and where each element entry goes."""
+        number = np.full(self.size, -1, dtype=np.int64)
+        number[self.free] = np.arange(self.free.sum())
+        local = number[self.element_unknowns]
+        n, m = local.shape
+        i = np.broadcast_to(local[:, :, None], (n, m, m)).ravel()
+        j = np.broadcast_to(local[:, None, :], (n, m, m)).ravel()
+        inside = (i >= 0) & (j >= 0)
+        count = int(self.free.sum())
+        unique, inverse = np.unique(i[inside] * count + j[inside], return_inverse=True)
+        target = np.full(len(i), len(unique), dtype=np.int64)
+        target[inside] = inverse
+        rows, columns = unique // count, unique % count
+        pointers = np.searchsorted(rows, np.arange(count + 1))
+        return rows, columns, pointers, target
+
+    def element_forces(self, u: Array, p: Array) -> tuple[Array, Array]:
+        """Return residual and tangent of every element.
+
+        Parameters
+        ----------
+        u : ndarray, shape (nodes, 2)
+            Displacements [R_w].
+        p : ndarray, shape (vertices,)
+            Pressures [mu].
+
+        Returns
+        -------
+        residual : ndarray, shape (elements, 15)
+        tangent : ndarray, shape (elements, 15, 15)
+        """
+        local = u[self.connectivity]
+        # gradients of a rigid translation cancel; taking it out first keeps their digits
+        local = local - local[:, :1]
+        return self.element_arrays(
+            local, p[self.triangles], self.grad, self.psi, self.dx, self.alpha, self.bulk
+        )
+
+    def gather(self, residual: Array) -> Array:
+        """Return the global residual, held unknowns included."""
+        return np.bincount(
+            self.element_unknowns.ravel(), residual.ravel(), minlength=self.size
+        )
+
+    def matrix(self, tangent: Array) -> sp.csr_matrix:
+        """Return the scaled tangent of the free unknowns."""
+        rows, columns, pointers, target = self._pattern
+        data = np.bincount(target, tangent.ravel(), minlength=len(rows) + 1)[:-1]
+        scale = self.scale[self.free]
+        data *= scale[rows] * scale[columns]
+        count = len(pointers) - 1
+        return sp.csr_matrix((data, columns, pointers), shape=(count, count))
+
+    def eliminate(self, matrix: sp.csr_matrix, fixed: NDArray[np.bool_]) -> sp.csr_matrix:
+        """Return the matrix with rows and columns of `fixed` free unknowns made the identity."""
+        rows, columns, _, _ = self._pattern
+        off = fixed[rows] | fixed[columns]
+        data = np.where(off, 0.0, matrix.data)
+        data[off & (rows == columns)] = 1.0
+        return sp.csr_matrix((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+
+    def displacement_gradient(self, u: Array, elements: Index | slice = slice(None)) -> Array:
+        """Return grad u at the quadrature points, shape (2, 2, elements, points)."""
+        local = u[self.connectivity[elements]]
+        return np.einsum("eni,eqnj->ijeq", local - local[:, :1], self.grad[elements])
+
+    def pressure_at_points(self, p: Array, elements: Index | slice = slice(None)) -> Array:
+        """Return the pressure at the quadrature points, shape (elements, points)."""
+        return np.einsum("em,qm->eq", p[self.triangles[elements]], self.psi)
