@@ -79,7 +79,17 @@ def _power_strain(e: float, m: float) -> float:
     """Return sign(1 + e) |1 + e|^m - 1."""
     if e > -1.0:
         return math.expm1(m * math.log1p(max(e, -1.0 + 1e-12)))
-    return -((-1.0 - e) ** m) - 1.0
+    return float(-((-1.0 - e) ** m) - 1.0)
+
+
+def _divided_difference(e1: float, e2: float, d: float, m: float) -> float:
+    """Return (l1^m - l2^m)/(l1 - l2) for l = 1 + e and d = l1 - l2 >= 0."""
+    l2 = 1.0 + e2
+    if l2 > 0.1 * (1.0 + e1):
+        t = math.log1p(d / l2)
+        quotient = m if t < 1e-18 else math.expm1(m * t) / math.expm1(t)
+        return float(l2 ** (m - 1.0) * quotient)
+    return (_power_strain(e1, m) - _power_strain(e2, m)) / d
 
 
 def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -> float:
@@ -97,22 +107,18 @@ def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -
     ws = (f1 - e1 + f2 - e2) / alpha
     l1, l2 = max(abs(1.0 + e1), 1e-12), max(abs(1.0 + e2), 1e-12)
     h1, h2 = 2.0 * m / alpha * l1 ** (m - 1.0), 2.0 * m / alpha * l2 ** (m - 1.0)
-    if 1.0 + e2 > 0.1 * (1.0 + e1):
-        t = math.log1p(d / (1.0 + e2))
-        if t < 1e-5:
-            quotient = m * (1.0 + 0.5 * (m - 1.0) * t)
-        else:
-            quotient = math.expm1(m * t) / math.expm1(t)
-        ratio = 2.0 / alpha * (1.0 + e2) ** (m - 1.0) * quotient
+    ratio = 2.0 / alpha * _divided_difference(e1, e2, d, m)
+    if e2 < -1.0:  # l2 < 0: the sum over l1 + l2 is the divided difference of l1 and -l2
+        s_over = _divided_difference(e1, -2.0 - e2, s, m) / alpha
     else:
-        ratio = 2.0 / alpha * (f1 - f2) / d
+        s_over = ws / max(s, 1e-12) + 1.0 / alpha
     q = p + kappa * dj
     cs = ws + 0.5 * q * s
     cd = (0.5 * ratio + 1.0 / alpha - 0.5 * q) * d
     ga, gb, gc, ge = cs * sa, cs * sb, cd * dc, cd * de
     P[0], P[1], P[2], P[3] = ga + gc, ge - gb, gb + ge, ga - gc
     det_part = q - 2.0 / alpha
-    one_s = ws / max(s, 1e-12) + 1.0 / alpha + 0.5 * det_part
+    one_s = s_over + 0.5 * det_part
     one_d = 0.5 * ratio - 0.5 * det_part
     mean = 0.25 * (h1 + h2)
     ts, td, sd = mean + 0.5 * det_part - one_s, mean - 0.5 * det_part - one_d, 0.25 * (h1 - h2)
@@ -139,7 +145,7 @@ def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -
     for i in range(4):
         for j in range(i):
             A[i, j] = A[j, i]
-    return dj
+    return float(dj)
 
 
 def _element_loop(
@@ -199,6 +205,7 @@ def compiled_loop() -> ElementArrays | None:
     # numba resolves the helpers by their module names when it compiles the loop
     scope = globals()
     scope["_power_strain"] = compile_(_power_strain)
+    scope["_divided_difference"] = compile_(_divided_difference)
     scope["_point"] = compile_(_point)
     return cast(ElementArrays, compile_(_element_loop))
 

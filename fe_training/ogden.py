@@ -30,11 +30,14 @@ _SERIES_STRAIN = 0.03
 _SERIES_TERMS = 12
 #: The second derivative of a power below 2 is unbounded at zero stretch; it is cut off here.
 _TINY_STRETCH = 1e-12
+#: Below this relative difference two stretches are equal to rounding.
+_EQUAL = 1e-18
 
 
 def volume_change(H: Array) -> Array:
     """Return det(I + H) - 1 without losing digits where H is small."""
-    return H[0, 0] + H[1, 1] + H[0, 0] * H[1, 1] - H[0, 1] * H[1, 0]
+    change: Array = H[0, 0] + H[1, 1] + H[0, 0] * H[1, 1] - H[0, 1] * H[1, 0]
+    return change
 
 
 def _strains(H: Array) -> tuple[Array, ...]:
@@ -71,7 +74,7 @@ def _power_strain(e: Array, m: float) -> Array:
     return np.where(e > -1.0, positive, flipped)
 
 
-def energy(H: Array, alpha: float, kappa: float = 0.0) -> Array:
+def energy(H: Array, alpha: float, kappa: float | Array = 0.0) -> Array:
     """Return the strain energy density W(H)/mu.
 
     Parameters
@@ -80,7 +83,7 @@ def energy(H: Array, alpha: float, kappa: float = 0.0) -> Array:
         Displacement gradient [-].
     alpha : float
         Strain-stiffening exponent [-]; 2 is neo-Hookean.
-    kappa : float
+    kappa : float or ndarray, shape (...)
         Bulk term [mu].
 
     Returns
@@ -97,7 +100,8 @@ def energy(H: Array, alpha: float, kappa: float = 0.0) -> Array:
     """
     e1, e2 = _strains(H)[-2:]
     iso = _power_remainder(e1, alpha) + _power_remainder(e2, alpha) - alpha * e1 * e2
-    return 2.0 / alpha**2 * iso + 0.5 * kappa * volume_change(H) ** 2
+    W: Array = 2.0 / alpha**2 * iso + 0.5 * kappa * volume_change(H) ** 2
+    return W
 
 
 def _coefficients(H: Array, alpha: float) -> tuple[Array, ...]:
@@ -111,7 +115,10 @@ def _coefficients(H: Array, alpha: float) -> tuple[Array, ...]:
     l2 = np.maximum(np.abs(1.0 + e2), _TINY_STRETCH)
     h1, h2 = m / alpha * 2.0 * l1 ** (m - 1.0), m / alpha * 2.0 * l2 ** (m - 1.0)
     ratio = 2.0 / alpha * divided_difference(e1, e2, d, m)  # (f'(l1) - f'(l2)) / (l1 - l2)
-    return sa, sb, dc, de, s, d, ws, ratio, h1, h2
+    # (f'(l1) + f'(l2)) / (l1 + l2); where l2 < 0 it is the divided difference of l1 and -l2
+    inverted = divided_difference(e1, np.maximum(-2.0 - e2, -1.0), s, m) / alpha
+    upright = ws / np.maximum(s, _TINY_STRETCH) + 1.0 / alpha
+    return sa, sb, dc, de, s, d, ws, np.where(e2 < -1.0, inverted, upright), ratio, h1, h2
 
 
 def divided_difference(e1: Array, e2: Array, d: Array, m: float) -> Array:
@@ -119,16 +126,14 @@ def divided_difference(e1: Array, e2: Array, d: Array, m: float) -> Array:
     regular = 1.0 + e2 > 0.1 * (1.0 + e1)
     l2 = np.where(regular, 1.0 + e2, 1.0)
     t = np.log1p(np.where(regular, d, 0.0) / l2)
-    near = t < 1e-5
-    safe = np.where(near, 1.0, t)
-    quotient = np.where(
-        near, m * (1.0 + 0.5 * (m - 1.0) * t), np.expm1(m * safe) / np.expm1(safe)
-    )
+    equal = t < _EQUAL
+    safe = np.where(equal, 1.0, t)
+    quotient = np.where(equal, m, np.expm1(m * safe) / np.expm1(safe))
     far = (_power_strain(e1, m) - _power_strain(e2, m)) / np.where(regular, 1.0, d)
     return np.where(regular, l2 ** (m - 1.0) * quotient, far)
 
 
-def stress(H: Array, pressure: Array, alpha: float, kappa: float = 0.0) -> Array:
+def stress(H: Array, pressure: Array, alpha: float, kappa: float | Array = 0.0) -> Array:
     """Return the first Piola stress dW/dF + p cof F, divided by mu.
 
     Parameters
@@ -152,7 +157,7 @@ def stress(H: Array, pressure: Array, alpha: float, kappa: float = 0.0) -> Array
     >>> stress(H, np.array(0.0), alpha=2.0).diagonal().round(3)  # l - 1/l and its partner
     array([ 1.5, -1.5])
     """
-    sa, sb, dc, de, s, d, ws, ratio, _, _ = _coefficients(H, alpha)
+    sa, sb, dc, de, s, d, ws, _, ratio, _, _ = _coefficients(H, alpha)
     q = pressure + kappa * volume_change(H)
     cs = ws + 0.5 * q * s
     cd = 0.5 * ratio * d + (1.0 / alpha - 0.5 * q) * d
@@ -164,7 +169,7 @@ def _from_modes(a: Array, b: Array, c: Array, e: Array) -> Array:
     return np.array([[a + c, e - b], [b + e, a - c]])
 
 
-def tangent(H: Array, pressure: Array, alpha: float, kappa: float = 0.0) -> Array:
+def tangent(H: Array, pressure: Array, alpha: float, kappa: float | Array = 0.0) -> Array:
     """Return dP/dF at fixed pressure, divided by mu.
 
     Parameters
@@ -186,14 +191,12 @@ def tangent(H: Array, pressure: Array, alpha: float, kappa: float = 0.0) -> Arra
     >>> float(A[0, 1, 0, 1]), round(float(A[0, 0, 0, 0] - A[0, 0, 1, 1]), 12)
     (1.0, 2.0)
     """
-    sa, sb, dc, de, s, d, ws, ratio, h1, h2 = _coefficients(H, alpha)
+    sa, sb, dc, de, s, d, _, s_over, ratio, h1, h2 = _coefficients(H, alpha)
     q = pressure + kappa * volume_change(H)
-    s_safe = np.maximum(s, _TINY_STRETCH)
     det_part = q - 2.0 / alpha
     # second derivatives in (s, d); the factor of det F = (s^2 - d^2)/4 enters as det_part
     ss = 0.25 * (h1 + h2)
     sd = 0.25 * (h1 - h2)
-    s_over = ws / s_safe + 1.0 / alpha
     d_over = 0.5 * ratio
     one_s, one_d = s_over + 0.5 * det_part, d_over - 0.5 * det_part
     two_s, two_d = ss + 0.5 * det_part, ss - 0.5 * det_part
@@ -216,7 +219,7 @@ _MODES = np.array([[1, 0, 1, 0], [0, -1, 0, 1], [0, 1, 0, 1], [1, 0, -1, 0]], dt
 
 
 def _tensor_from_modes(M: Array) -> Array:
-    A = np.einsum("ia,jb,ab...->ij...", _MODES, _MODES, M)
+    A: Array = np.einsum("ia,jb,ab...->ij...", _MODES, _MODES, M)
     return A.reshape((2, 2, 2, 2, *M.shape[2:]))
 
 
