@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -10,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.errors import InputError
 from surrogate.force import cutting_force
-from surrogate.identification import FORCE_STD, WIRE_RADIUS, linear_form, scalar
+from surrogate.identification import FORCE_STD, WIRE_RADIUS, column, linear_form
 from surrogate.least_squares import solve_least_squares
-from surrogate.scene import Scene
-from surrogate.validation import Quantity
+from surrogate.scene import Scene, require_scene
+from surrogate.validation import Quantity, one_number, shown
 
 __all__ = ["Design", "Noise", "design_radii"]
 
@@ -69,6 +70,12 @@ class Design:
         Standard error that tau_w will have [Pa].
     noise : Noise
         Scatter of one cut that the standard errors assume.
+
+    Examples
+    --------
+    >>> design = design_radii(1e-4, 5e-4, cuts=5, force_std=0.5)
+    >>> print(f"{design.toughness_std:.3f} J/m2, {design.wear_strength_std:.1f} Pa")
+    0.437 J/m2, 312.5 Pa
     """
 
     wire_radius: Array
@@ -94,8 +101,15 @@ class Design:
         ------
         InputError
             If a radius is not a positive finite number or all are the same.
+
+        Examples
+        --------
+        >>> spread = [1e-4, 2e-4, 3e-4, 4e-4, 5e-4]
+        >>> gains = design_radii(1e-4, 5e-4, cuts=5, force_std=0.5).gain_over(spread)
+        >>> print("{:.3f} {:.3f}".format(*gains))
+        1.201 1.265
         """
-        radii = np.atleast_1d(WIRE_RADIUS.checked(wire_radius))
+        radii = column(WIRE_RADIUS, wire_radius)
         if np.unique(radii).size < 2:
             raise InputError("one radius cannot tell toughness from wear; give at least two.")
         other = _standard_errors(radii, self.noise)
@@ -153,8 +167,13 @@ def design_radii(
         If a number is not positive, the range is empty, fewer than two cuts are left for the
         ends, both or neither kind of scatter is given, or relative scatter lacks `expected`.
 
+    Notes
+    -----
+    Range of validity: that of Eq. (13); the standard errors are those of independent cuts.
+
     References
     ----------
+    arXiv:2412.02021, Eq. (13).
     A. C. Atkinson, A. N. Donev, R. D. Tobias, Optimum Experimental Designs, Oxford 2007, ch. 10
     (D-optimality) and 17 (errors of single parameters).
 
@@ -172,18 +191,21 @@ def design_radii(
     1.189 1.250
     """
     noise = _noise(force_std, relative_force_std, expected)
-    smallest = scalar(WIRE_RADIUS, smallest_radius)
-    largest = scalar(WIRE_RADIUS, largest_radius)
+    smallest = one_number(WIRE_RADIUS, smallest_radius)
+    largest = one_number(WIRE_RADIUS, largest_radius)
     if not smallest < largest:
         raise InputError(
             f"the range from smallest_radius = {smallest!r} m to largest_radius = {largest!r} m is "
             "empty; give two different radii, the smaller one first."
         )
+    cuts = _whole_number("cuts", cuts)
+    line_test_cuts = _whole_number("line_test_cuts", line_test_cuts)
     ends = cuts - line_test_cuts
     if line_test_cuts < 0 or ends < 2 or cuts > MOST_CUTS:
         raise InputError(
-            f"cuts = {cuts} with line_test_cuts = {line_test_cuts} leaves {ends} for the ends of "
-            f"the range, where 2 are needed and {MOST_CUTS} are the most; change either number."
+            f"cuts = {shown(cuts)} with line_test_cuts = {shown(line_test_cuts)} leaves "
+            f"{shown(ends)} for the ends of the range, where 2 are needed and {MOST_CUTS} are the "
+            "most; change either number."
         )
     groups = np.array([smallest, 0.5 * (smallest + largest), largest])
     at_smallest = np.arange(1, ends)
@@ -202,18 +224,32 @@ def _noise(
             "exactly one of force_std and relative_force_std is needed; give the scatter of one "
             "cut in N/m, or as a fraction of its force."
         )
+    if expected is not None:
+        require_scene(expected, "expected")
+        if replace(expected, wire_radius=1.0).shape != ():
+            raise InputError(
+                "expected must be one material, but holds arrays; give a scene of numbers."
+            )
     if force_std is not None:
-        return Noise(scalar(FORCE_STD, force_std), None, expected)
+        return Noise(one_number(FORCE_STD, force_std), None, expected)
     if expected is None:
         raise InputError(
             "relative_force_std needs expected, the scene whose forces it is a fraction of; "
             "give it, or force_std in N/m."
         )
-    if replace(expected, wire_radius=1.0).shape != ():
-        raise InputError(
-            "expected must be one material, but holds arrays; give a scene of numbers."
-        )
-    return Noise(None, scalar(RELATIVE_FORCE_STD, relative_force_std), expected)
+    return Noise(None, one_number(RELATIVE_FORCE_STD, relative_force_std), expected)
+
+
+def _whole_number(name: str, value: object) -> int:
+    try:
+        if not isinstance(value, bool):
+            return operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        pass
+    raise InputError(
+        f"{name} must be a whole number, but {name} = {shown(value)} ({type(value).__name__}); "
+        "give the number of cuts."
+    )
 
 
 def _loss(goal: str, weight: Array, radius: Array) -> Array:
@@ -226,8 +262,8 @@ def _loss(goal: str, weight: Array, radius: Array) -> Array:
         weight[i] * weight[j] * (radius[i] - radius[j]) ** 2 for i in range(3) for j in range(i)
     )
     numerators = {"both": np.ones_like(zeroth), "toughness": second, "wear_strength": zeroth}
-    if goal not in numerators:
-        raise InputError(f"goal is {goal!r}; choose one of {', '.join(numerators)}.")
+    if not isinstance(goal, str) or goal not in numerators:
+        raise InputError(f"goal is {shown(goal)}; choose one of {', '.join(numerators)}.")
     return np.asarray(numerators[goal] / determinant)
 
 

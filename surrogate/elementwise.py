@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.validation import LARGEST, FloatOrArray, Quantity, broadcast_shape
+from surrogate.validation import LARGEST, FloatOrArray, Quantity, broadcast_shape, common_shape
 
 __all__ = [
     "Kernel",
@@ -76,7 +76,7 @@ def apply(kernel: Kernel, values: Sequence[FloatOrArray], dtypes: Sequence[type]
     """
     if all(type(value) is float for value in values):
         return kernel(*values)
-    shape = np.broadcast_shapes(*map(np.shape, values))
+    shape = common_shape(values)
     if math.prod(shape) > WHOLE:
         results = _in_blocks(kernel, values, dtypes)
     else:

@@ -82,8 +82,9 @@ def _regime(fit: Identification) -> Iterator[str]:
         yield (
             f"{beyond} of {g.size} wires cut at g = Gamma_o/(mu R_w) above 1 "
             f"({g.min():.3g} to {g.max():.3g}): the wear term 4 tau_w R_w of model '{fit.model}' "
-            "comes from Eq. 11, which holds for g <= 1; tau_w rests on its extrapolation, and "
-            f"wires thicker than {1e3 * fit.toughness / fit.shear_modulus:.3g} mm would not"
+            "comes from Eq. 11, which the paper found for g <= 1, so that tau_w rests on an "
+            "extrapolation; wires of a radius above "
+            f"{1e3 * fit.toughness / fit.shear_modulus:.3g} mm would avoid it"
         )
     if fit.model == "friction-free" and fit.friction_coefficient > 0.0:
         yield (

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.elementwise import apply, evaluate_checked
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS, RELATIVE_WEAR_STRENGTH
-from surrogate.errors import InputError
 from surrogate.force_models import force_model
 from surrogate.records import Record
-from surrogate.scene import Scene
+from surrogate.scene import Scene, require_scene
 from surrogate.validation import FRICTION_COEFFICIENT, FloatOrArray, Quantity
 
 __all__ = ["CuttingForce", "cutting_force", "dissipative_force"]
@@ -83,6 +82,8 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
 
     Raises
     ------
+    InputError
+        If `scene` is not a `Scene`.
     UnknownModelError
         If there is no such model.
     DomainError
@@ -113,11 +114,7 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     1.7600 N/m, in domain: False
     """
     chosen = force_model(model)
-    if not isinstance(scene, Scene):
-        raise InputError(
-            f"scene must be a Scene, but scene = {scene!r} ({type(scene).__name__}); "
-            "give Scene(shear_modulus, toughness, wire_radius, ...)."
-        )
+    require_scene(scene)
     chosen.stiffening.checked(scene.stiffening_exponent)
 
     def parts(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any, alpha: Any) -> tuple[Any, ...]:

@@ -23,7 +23,7 @@ import numpy as np
 from surrogate.elementwise import exp, log, product, where
 from surrogate.equations import TABLE_1, TABULATED_STIFFENING, table_1_exponent
 from surrogate.errors import UnknownModelError
-from surrogate.validation import STIFFENING_EXPONENT, Quantity
+from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
 __all__ = ["FORCE_MODELS", "MUCH_GREATER", "ClosedForm", "ForceModel", "PowerLaw", "force_model"]
 
@@ -185,6 +185,6 @@ def force_model(name: object) -> ForceModel:
     if isinstance(name, str) and name in FORCE_MODELS:
         return FORCE_MODELS[name]
     raise UnknownModelError(
-        f"model must be the name of a model, but model = {name!r}; "
+        f"model must be the name of a model, but model = {shown(name)}; "
         f"choose one of {', '.join(FORCE_MODELS)}."
     )

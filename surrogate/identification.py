@@ -15,7 +15,7 @@ from surrogate.least_squares import solve_least_squares
 from surrogate.radii import transition_radius, wear_transition_radius
 from surrogate.scene import Scene
 from surrogate.statistics import normal_quantile, student_quantile
-from surrogate.validation import Quantity
+from surrogate.validation import Quantity, one_number
 
 __all__ = ["Identification", "identify"]
 
@@ -30,6 +30,7 @@ def _limited(quantity: Quantity, smallest: float = _SMALLEST) -> Quantity:
 
 
 WIRE_RADIUS = _limited(validation.WIRE_RADIUS)
+PREDICTED_RADIUS = _limited(validation.WIRE_RADIUS, smallest=0.0)
 WIRE_DIAMETER = _limited(Quantity("wire_diameter", "m", "give the wire's diameter in metres"))
 FORCE = _limited(
     Quantity(
@@ -75,6 +76,21 @@ class Identification:
         Name of the force model.
     confidence : float
         Probability that each interval states [-].
+
+    Notes
+    -----
+    Standard errors of lengths come from the covariance by first-order propagation, with mu and xi
+    taken as exact. They hold where the standard error of tau_w is small beside tau_w.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (10) to (15).
+
+    Examples
+    --------
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    >>> print(f"l_w = {1e6 * fit.wear_length:.1f} +- {1e6 * fit.wear_length_std:.1f} um")
+    l_w = 209.7 +- 18.5 um
     """
 
     toughness: float
@@ -150,6 +166,30 @@ class Identification:
         """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
         return float(transition_radius(self.scene(1.0))) if self.is_physical else np.nan
 
+    @property
+    def wear_length_std(self) -> float:
+        """Standard error of l_w [m]; nan where l_w is infinite or nan."""
+        return self._length_std(1.0, 0.0)
+
+    @property
+    def wear_transition_radius_std(self) -> float:
+        """Standard error of l_w/4 [m]; nan where that is infinite or nan."""
+        return 0.25 * self.wear_length_std
+
+    @property
+    def transition_radius_std(self) -> float:
+        """Standard error of the transition radius of Eq. (13) [m]; nan where that is no number."""
+        xi = self.friction_coefficient
+        return self._length_std(0.25 * (1.0 + xi), xi * self.shear_modulus)
+
+    def _length_std(self, factor: float, stress: float) -> float:
+        """Standard error of factor Gamma_o/(stress + tau_w) [m], to first order."""
+        stress += self.wear_strength
+        if not self.is_physical or stress == 0.0:
+            return np.nan
+        gradient = (factor / stress) * np.array([1.0, -self.toughness / stress])
+        return float(np.sqrt(gradient @ self.covariance @ gradient))
+
     def scene(self, wire_radius: ArrayLike) -> Scene:
         """Return the scene of the identified material and a wire of any radius [m].
 
@@ -168,7 +208,13 @@ class Identification:
         )
 
     def predict(self, wire_radius: ArrayLike) -> Array:
-        """Return the fitted F_ss/T [N/m] for wires of any radius [m]."""
+        """Return the fitted F_ss/T [N/m] for wires of any radius [m], 0 included.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or not a number.
+        """
         columns, offset = self._linear_form(wire_radius)
         return np.asarray(offset + columns @ np.array([self.toughness, self.wear_strength]))
 
@@ -197,7 +243,7 @@ class Identification:
     def _linear_form(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
         return linear_form(
             self.model,
-            np.asarray(WIRE_RADIUS.checked(wire_radius)),
+            np.asarray(PREDICTED_RADIUS.checked(wire_radius)),
             self.shear_modulus,
             self.friction_coefficient,
             self.stiffening_exponent,
@@ -288,14 +334,14 @@ def identify(
     5.2419e-05 m
     """
     radius = _radius(wire_radius, wire_diameter)
-    forces = _column(FORCE, force)
-    std = None if force_std is None else _column(FORCE_STD, force_std)
+    forces = column(FORCE, force)
+    std = None if force_std is None else column(FORCE_STD, force_std)
     if std is not None and std.size == 1:
         std = np.full(forces.shape, std[0])
     _check_shapes(radius, forces, std)
-    modulus = scalar(SHEAR_MODULUS, shear_modulus)
-    friction = scalar(FRICTION_COEFFICIENT, friction_coefficient)
-    exponent = scalar(validation.STIFFENING_EXPONENT, stiffening_exponent)
+    modulus = one_number(SHEAR_MODULUS, shear_modulus)
+    friction = one_number(FRICTION_COEFFICIENT, friction_coefficient)
+    exponent = one_number(validation.STIFFENING_EXPONENT, stiffening_exponent)
     columns, offset = linear_form(model, radius, modulus, friction, exponent)
 
     weight = np.ones_like(forces) if std is None else 1.0 / std
@@ -328,37 +374,27 @@ def identify(
         friction_coefficient=friction,
         stiffening_exponent=exponent,
         model=model,
-        confidence=scalar(CONFIDENCE, confidence),
+        confidence=one_number(CONFIDENCE, confidence),
     )
 
 
-def scalar(quantity: Quantity, value: object) -> float:
-    """Return one validated number, or raise an error that says that one number is meant."""
-    checked = quantity.checked(value)
-    if isinstance(checked, float):
-        return checked
-    raise InputError(
-        f"{quantity.name} must be one number, but has the shape {checked.shape}; "
-        "one experiment has one material."
-    )
-
-
-def _column(quantity: Quantity, values: ArrayLike) -> Array:
-    column = np.array(quantity.checked(values), ndmin=1)  # a copy: the caller's may change
-    if column.ndim > 1:
+def column(quantity: Quantity, values: ArrayLike) -> Array:
+    """Return validated numbers as a read-only array of one axis, one number a cut."""
+    numbers = np.array(quantity.checked(values), ndmin=1)  # a copy: the caller's may change
+    if numbers.ndim > 1:
         raise InputError(
-            f"{quantity.name} must be a list of numbers, but has the shape {column.shape}; "
+            f"{quantity.name} must be a list of numbers, but has the shape {numbers.shape}; "
             "give one number a cut."
         )
-    column.flags.writeable = False
-    return column
+    numbers.flags.writeable = False
+    return numbers
 
 
 def _radius(wire_radius: ArrayLike | None, wire_diameter: ArrayLike | None) -> Array:
     if wire_radius is not None and wire_diameter is None:
-        return _column(WIRE_RADIUS, wire_radius)
+        return column(WIRE_RADIUS, wire_radius)
     if wire_diameter is not None and wire_radius is None:
-        return _column(WIRE_DIAMETER, wire_diameter) / 2.0
+        return column(WIRE_DIAMETER, wire_diameter) / 2.0
     state = "neither is given" if wire_radius is None else "both are given"
     raise InputError(
         f"wire_radius or wire_diameter is needed, but {state}; give exactly one, and None for "

@@ -8,13 +8,23 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from surrogate.elementwise import apply, evaluate_checked, ratio
-from surrogate.scene import Scene
+from surrogate.elementwise import (
+    all_normal,
+    apply,
+    evaluate_checked,
+    quotient,
+    where_normal,
+)
+from surrogate.scene import Scene, require_scene
 from surrogate.validation import TOUGHNESS, WORK_OF_FRACTURE, FloatOrArray, defined
 
 __all__ = ["fracto_cohesive_transition_radius", "transition_radius", "wear_transition_radius"]
+
+NO_POWER = -9999
+"""Power of two of zero: less than any product of two numbers has."""
 
 
 def transition_radius(scene: Scene) -> FloatOrArray:
@@ -32,6 +42,8 @@ def transition_radius(scene: Scene) -> FloatOrArray:
 
     Raises
     ------
+    InputError
+        If `scene` is not a `Scene`.
     DomainError
         If Gamma_o and xi mu + tau_w are both 0: every radius would do.
 
@@ -49,6 +61,7 @@ def transition_radius(scene: Scene) -> FloatOrArray:
     >>> print(f"{radius:.4e} m")
     5.6277e-05 m
     """
+    require_scene(scene)
     quantities = (
         scene.shear_modulus,
         scene.toughness,
@@ -74,6 +87,8 @@ def wear_transition_radius(scene: Scene) -> FloatOrArray:
 
     Raises
     ------
+    InputError
+        If `scene` is not a `Scene`.
     DomainError
         If Gamma_o and tau_w are both 0.
 
@@ -90,7 +105,9 @@ def wear_transition_radius(scene: Scene) -> FloatOrArray:
     >>> print(f"{wear_transition_radius(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)):.4e} m")
     5.1613e-05 m
     """
-    return 0.25 * scene.wear_length
+    require_scene(scene)
+    radius = apply(_quarter, (scene.toughness, scene.wear_strength))
+    return defined("wear_transition_radius", radius, "give a toughness or a wear strength")
 
 
 def fracto_cohesive_transition_radius(
@@ -130,12 +147,29 @@ def fracto_cohesive_transition_radius(
     >>> print(f"{fracto_cohesive_transition_radius(2.6, 6973.0):.4e} m")
     9.3217e-05 m
     """
-    length = evaluate_checked(ratio, (TOUGHNESS, WORK_OF_FRACTURE), (toughness, work_of_fracture))
+    quantities = (TOUGHNESS, WORK_OF_FRACTURE)
+    radius = evaluate_checked(_quarter, quantities, (toughness, work_of_fracture))
     remedy = "give a toughness or a work of fracture"
-    return 0.25 * defined("fracto_cohesive_transition_radius", length, remedy)
+    return defined("fracto_cohesive_transition_radius", radius, remedy)
 
 
 def _transition(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
     # Divided by 1 + xi, the denominator is a mean of mu and tau_w, which cannot overflow.
     mean = (xi / (1.0 + xi)) * mu + wear / (1.0 + xi)
-    return 0.25 * ratio(gamma, mean)
+    if all_normal(mean):
+        return _quarter(gamma, mean)
+    return where_normal(mean, _quarter(gamma, mean), _transition_of_any_size(mu, gamma, xi, wear))
+
+
+def _transition_of_any_size(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
+    """Return the same from significands and exponents, of which only the result can underflow."""
+    (x, p), (m, q), (w, r), (g, s), (n, t) = map(np.frexp, (xi, mu, wear, gamma, 1.0 + xi))
+    with np.errstate(all="ignore"):
+        power = np.maximum(np.where(x * m, p + q, NO_POWER), np.where(w, r, NO_POWER))
+        stress = np.abs(np.ldexp(x * m, p + q - power) + np.ldexp(w, r - power))  # -0.0 is 0
+        radius = np.ldexp(g * n / stress, s + t - power - 2)
+    return radius if isinstance(radius, np.ndarray) else float(radius)
+
+
+def _quarter(gamma: Any, stress: Any) -> Any:
+    return quotient(gamma, 4.0, stress)

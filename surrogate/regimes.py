@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.elementwise import apply, product, ratio
-from surrogate.errors import InputError
 from surrogate.records import Record
-from surrogate.scene import Scene
-from surrogate.validation import Quantity
+from surrogate.scene import Scene, require_scene
+from surrogate.validation import ABOVE_HALF, Quantity, one_number
 
 __all__ = ["CONTACTS", "DOMINANCES", "Regime", "classify"]
 
@@ -26,7 +25,7 @@ TOUCHING_TOUGHNESS = 1.0
 """g above which the wire touches the crack tip: J > mu R_w, below Eq. (5)."""
 
 THRESHOLD = Quantity(
-    "threshold", "", "give a share that only one term can have", lower=0.5, upper=1.0
+    "threshold", "", "give a share that only one term can have", lower=ABOVE_HALF, upper=1.0
 )
 
 
@@ -84,7 +83,7 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE) -> Regime:
     Raises
     ------
     InputError
-        If the threshold is not a number above 0.5 and at most 1.
+        If `scene` is not a `Scene`, or the threshold not a number above 0.5 and at most 1.
 
     Notes
     -----
@@ -104,12 +103,8 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE) -> Regime:
     >>> print(f"{share:.3f}")
     0.829
     """
-    share = THRESHOLD.checked(threshold)
-    if not isinstance(share, float) or share == THRESHOLD.lower:
-        raise InputError(
-            f"threshold must be one number above 0.5, but threshold = {threshold!r}; "
-            f"{THRESHOLD.remedy}."
-        )
+    require_scene(scene)
+    share = one_number(THRESHOLD, threshold)
 
     def codes(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> tuple[Any, Any]:
         terms = (gamma + xi * gamma, 4.0 * (wear * radius), 4.0 * product(radius, xi, mu))

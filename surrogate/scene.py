@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.elementwise import apply, quotient, ratio
+from surrogate.errors import InputError
 from surrogate.records import Record
 from surrogate.validation import (
     FRICTION_COEFFICIENT,
@@ -19,10 +19,12 @@ from surrogate.validation import (
     FloatOrArray,
     Quantity,
     broadcast_shape,
+    common_shape,
     defined,
+    shown,
 )
 
-__all__ = ["Scene"]
+__all__ = ["Scene", "require_scene"]
 
 QUANTITIES: tuple[Quantity, ...] = (
     SHEAR_MODULUS,
@@ -123,7 +125,7 @@ class Scene(Record):
     @property
     def shape(self) -> tuple[int, ...]:
         """Common shape of the quantities; () where all are numbers."""
-        return np.broadcast_shapes(*map(np.shape, self.values()))
+        return common_shape(self.values())
 
     @property
     def dimensionless_toughness(self) -> FloatOrArray:
@@ -142,3 +144,21 @@ class Scene(Record):
         """l_w = Gamma_o/tau_w [m]; infinite where tau_w = 0, a `DomainError` if 0/0."""
         length = apply(ratio, (self.toughness, self.wear_strength))
         return defined("wear_length", length, "give a toughness or a wear strength")
+
+
+def require_scene(value: object, name: str = "scene") -> None:
+    """Raise an `InputError` unless the value is a `Scene`.
+
+    Examples
+    --------
+    >>> require_scene(685.0)
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: scene must be a Scene, but scene = 685.0 (float); \
+give Scene(shear_modulus, toughness, wire_radius, ...).
+    """
+    if not isinstance(value, Scene):
+        raise InputError(
+            f"{name} must be a Scene, but {name} = {shown(value)} ({type(value).__name__}); "
+            "give Scene(shear_modulus, toughness, wire_radius, ...)."
+        )

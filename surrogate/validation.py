@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import reprlib
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -23,6 +24,7 @@ from numpy.typing import NDArray
 from surrogate.errors import DomainError, InputError
 
 __all__ = [
+    "ABOVE_HALF",
     "FRICTION_COEFFICIENT",
     "LARGEST",
     "SHEAR_MODULUS",
@@ -35,13 +37,17 @@ __all__ = [
     "FloatOrArray",
     "Quantity",
     "broadcast_shape",
+    "common_shape",
     "defined",
+    "one_number",
+    "shown",
 ]
 
 FloatOrArray: TypeAlias = "float | NDArray[np.float64]"
 
 LARGEST = sys.float_info.max
 SMALLEST = 5e-324  # a lower bound of SMALLEST reads as "positive"
+ABOVE_HALF = 0.5 + sys.float_info.epsilon / 2.0  # and this one as "more than 0.5"
 INFINITY = float("inf")
 
 
@@ -73,6 +79,8 @@ class Quantity:
     def checked(self, value: object) -> FloatOrArray:
         """Return `value` as a float or a float64 array, or raise an error that says why not."""
         if type(value) is not float:
+            if type(value) is np.ndarray and value.dtype == np.float64 and value.ndim:
+                return self._checked_array(value)  # as _converted would return it, only sooner
             converted = self._converted(value)
             if not isinstance(converted, float):
                 return self._checked_array(converted)
@@ -114,7 +122,7 @@ class Quantity:
             kind += f" of {array.dtype}"
         return InputError(
             f"{self.name} must be a real number or an array of real numbers, "
-            f"but {self.name} = {_shown(value)} ({kind}); {self.remedy}."
+            f"but {self.name} = {shown(value)} ({kind}); {self.remedy}."
         )
 
     def _range(self) -> str:
@@ -122,7 +130,7 @@ class Quantity:
         if self.upper < INFINITY:
             limits.append("finite" if self.upper == LARGEST else f"at most {self.upper:g}")
         if self.lower > -LARGEST:
-            names = {0.0: "not negative", SMALLEST: "positive"}
+            names = {0.0: "not negative", SMALLEST: "positive", ABOVE_HALF: "more than 0.5"}
             limits.append(names.get(self.lower, f"at least {self.lower:g}"))
         return " and ".join(limits) or "a number"
 
@@ -134,12 +142,18 @@ def _plain_array(value: object) -> NDArray[Any] | None:
         return None
     try:
         return np.asarray(value)
-    except (ValueError, TypeError, OverflowError):  # ragged lists
+    except Exception:  # ragged lists, and whatever an object's own conversion raises
         return None
 
 
-def _shown(value: object) -> str:
-    """Return a representation on one short line."""
+def shown(value: object) -> str:
+    """Return a representation on one short line, for messages.
+
+    Examples
+    --------
+    >>> shown("a model with a very long name, such as nobody would give one")
+    "'a model with...ould give one'"
+    """
     try:
         return " ".join(reprlib.repr(value).split())
     except Exception:  # integers of thousands of digits have none, and anything may lack one
@@ -154,15 +168,47 @@ def broadcast_shape(names: tuple[str, ...], values: tuple[FloatOrArray, ...]) ->
     >>> broadcast_shape(("x", "y"), (1.0, np.zeros(3)))
     (3,)
     """
-    shapes = [() if isinstance(value, float) else value.shape for value in values]
     try:
-        return np.broadcast_shapes(*shapes)
+        return common_shape(values)
     except ValueError:
+        shapes = map(np.shape, values)
         listed = ", ".join(f"{n} {s}" for n, s in zip(names, shapes, strict=True) if s)
         raise InputError(
             f"arguments must broadcast together, but their shapes are {listed}; "
             "give arrays of one shape, or insert axes of length 1."
         ) from None
+
+
+def common_shape(values: Iterable[FloatOrArray]) -> tuple[int, ...]:
+    """Return the shape that checked values broadcast to; a `ValueError` where they do not.
+
+    Examples
+    --------
+    >>> common_shape((1.0, np.zeros(3), np.zeros((2, 1))))
+    (2, 3)
+    """
+    shapes = {value.shape for value in values if type(value) is not float}  # type: ignore[union-attr]
+    return shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+
+
+def one_number(quantity: Quantity, value: object) -> float:
+    """Return one validated number, or raise an error that says that one number is meant.
+
+    Examples
+    --------
+    >>> one_number(WIRE_RADIUS, [1e-4, 2e-4])
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: wire_radius must be one number, but is an array of shape (2,); \
+give the radius of the wire in metres.
+    """
+    checked = quantity.checked(value)
+    if isinstance(checked, float):
+        return checked
+    raise InputError(
+        f"{quantity.name} must be one number, but is an array of shape {checked.shape}; "
+        f"{quantity.remedy}."
+    )
 
 
 def defined(name: str, value: FloatOrArray, remedy: str) -> FloatOrArray:

@@ -90,6 +90,16 @@ def test_gain_does_not_depend_on_the_size_of_the_scatter():
         ((1e-4, 5e-4, 10**9), {"force_std": 1.0}, "the most"),
         ((1e-4, 5e-4), {"force_std": 0.0}, "force_std must be"),
         ((1e-4, 5e-4), {"force_std": 1.0, "goal": "speed"}, "choose one of both"),
+        ((1e-4, 5e-4), {"force_std": 1.0, "goal": ["both"]}, "choose one of both"),
+        ((1e-4, 5e-4, 5.0), {"force_std": 1.0}, "cuts must be a whole number, but cuts = 5.0"),
+        ((1e-4, 5e-4, True), {"force_std": 1.0}, "cuts must be a whole number"),
+        ((1e-4, 5e-4), {"force_std": 1.0, "line_test_cuts": None}, "line_test_cuts must be a"),
+        ((1e-4, 5e-4), {"force_std": 1.0, "expected": 685.0}, "expected must be a Scene"),
+        (
+            (1e-4, 5e-4),
+            {"force_std": 1.0, "expected": Scene(685.0, 1.0, 1.0, [0.1, 0.2])},
+            "one material",
+        ),
         (
             (1e-4, 5e-4),
             {"relative_force_std": 0.1, "expected": Scene(685.0, [1.0, 2.0], 1.0)},
@@ -101,6 +111,11 @@ def test_bad_input_is_refused_in_words(arguments, options, words):
     with pytest.raises(InputError) as caught:
         design_radii(*arguments, **options)
     assert words in str(caught.value)
+
+
+def test_gain_over_a_table_of_radii_is_refused():
+    with pytest.raises(InputError, match="one number a cut"):
+        design_radii(1e-4, 5e-4, force_std=1.0).gain_over([PAPER_RADII, PAPER_RADII])
 
 
 def test_gain_over_one_radius_is_refused():

@@ -134,6 +134,7 @@ REFUSED = {
     "unmasked masked array": np.ma.masked_array([3.0, 4.0]),
     "ragged list": [[3.0], [3.0, 4.0]],
     "generator": (x for x in [3.0]),
+    "unwilling": type("Unwilling", (), {"__array__": lambda *_, **__: 1 / 0})(),
 }
 
 
@@ -218,6 +219,22 @@ def test_shapes_that_do_not_broadcast_are_refused(label):
         function(**call)
 
 
+@pytest.mark.parametrize(
+    "function",
+    [
+        surrogate.cutting_force,
+        surrogate.classify,
+        surrogate.transition_radius,
+        surrogate.wear_transition_radius,
+    ],
+)
+def test_what_is_no_scene_is_refused_in_one_line(function):
+    message = r"^scene must be a Scene, but scene = .{1,99}; give.*$"
+    for value in (None, 685.0, "gel", np.zeros((3, 3)), 10**5000):
+        with pytest.raises(InputError, match=message):
+            function(value)
+
+
 def test_anything_that_numpy_reads_as_an_array_is_one():
     class Column:
         mask = None
@@ -269,6 +286,21 @@ def test_dimensionless_toughness_is_accurate_at_every_size():
         exact = Fraction(gamma) / (Fraction(mu) * Fraction(radius))
         g = Scene(mu, gamma, radius).dimensionless_toughness
         assert g == pytest.approx(rounded(exact), rel=1e-15, abs=5e-324), (gamma, mu, radius)
+
+
+def test_transition_radii_are_accurate_at_every_size():
+    for mu, gamma, xi, tau in product(SIZES, SIZES[1:], SIZES, SIZES):
+        stress = Fraction(xi) * Fraction(mu) + Fraction(tau)
+        scene = Scene(mu, gamma, 1.0, xi, tau)
+        quantities = (mu, gamma, xi, tau)
+        for function, toughness, wear in (
+            (surrogate.transition_radius, (1 + Fraction(xi)) * Fraction(gamma), stress),
+            (surrogate.wear_transition_radius, Fraction(gamma), Fraction(tau)),
+        ):
+            exact = rounded(toughness / (4 * wear)) if wear else np.inf
+            assert function(scene) == pytest.approx(exact, rel=1e-15, abs=5e-324), quantities
+        arrays = Scene(*[np.array([value, 1.0]) for value in (mu, gamma, 1.0, xi, tau)])
+        assert surrogate.transition_radius(arrays)[0] == surrogate.transition_radius(scene)
 
 
 @pytest.mark.parametrize("alpha", [2.0, 5.0, 9.0])

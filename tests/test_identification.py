@@ -162,6 +162,37 @@ def test_friction_cannot_be_identified():
     assert rough.wear_strength == pytest.approx(free.wear_strength - 0.5 * MODULUS)
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_standard_errors_of_lengths_are_those_of_repeated_experiments(friction):
+    """2 % scatter of the forces: what first order leaves out is (std/estimate)^2, below 1 %."""
+    random = np.random.default_rng(11)
+    options = {"friction_coefficient": friction, "force_std": 0.02 * forces(PAPER_RADII, 8.0, 5e3)}
+    exact = forces(PAPER_RADII, 8.0, 5e3, friction)
+    fits = [
+        identify(PAPER_RADII, exact + random.normal(0.0, options["force_std"]), MODULUS, **options)
+        for _ in range(2000)
+    ]
+    for name in ("wear_length", "wear_transition_radius", "transition_radius"):
+        scatter = np.std([getattr(fit, name) for fit in fits])
+        stated = np.mean([getattr(fit, f"{name}_std") for fit in fits])
+        # The scatter of 2000 values is itself known to 1/sqrt(2 x 2000) = 1.6 %; four of those.
+        assert stated == pytest.approx(scatter, rel=0.064), name
+
+
+def test_standard_errors_of_lengths_that_are_no_numbers_are_unknown():
+    flat = identify(PAPER_RADII, [2.0] * 4 + [2.0 - 1e-9], MODULUS)
+    two = identify([1e-4, 2e-4], [2.0, 3.0], MODULUS)
+    for fit in (flat, two):
+        assert np.isnan(fit.wear_length_std)
+        assert np.isnan(fit.transition_radius_std)
+
+
+def test_the_prediction_for_no_wire_is_the_cleavage_toughness():
+    fit = identify(PAPER_RADII, forces(PAPER_RADII, 2.0, 5e3), MODULUS)
+    assert fit.predict(0.0) == fit.toughness
+    assert fit.predict_std(0.0) == fit.toughness_std
+
+
 def test_band_at_the_intercept_is_the_toughness_interval():
     force = np.array([5.6, 8.0, 10.3, 13.5, 16.3])
     fit = identify(PAPER_RADII, force, MODULUS)
@@ -245,7 +276,7 @@ def test_forces_that_do_not_vary():
         ((PAPER_RADII, -SOUND, MODULUS), {}, "cutting counted positive"),
         ((PAPER_RADII, SOUND * np.nan, MODULUS), {}, "force must be"),
         ((PAPER_RADII, SOUND, 0.0), {}, "shear_modulus must be"),
-        ((PAPER_RADII, SOUND, [1.0, 2.0]), {}, "one experiment has one material"),
+        ((PAPER_RADII, SOUND, [1.0, 2.0]), {}, "must be one number, but is an array of shape (2,)"),
         (([PAPER_RADII], SOUND, MODULUS), {}, "one number a cut"),
         ((PAPER_RADII, SOUND, MODULUS), {"force_std": 0.0}, "force_std must be"),
         ((PAPER_RADII, SOUND, MODULUS), {"confidence": 95.0}, "give 0.95"),
