@@ -6,13 +6,14 @@ import json
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.errors import InputError
+from surrogate.paths import file_name
 from surrogate.units import (
     ENERGY_DENSITY,
     LENGTH,
@@ -63,6 +64,12 @@ class Measurements:
         F_ss/T [N/m].
     force_std : ndarray, shape (n,), or None
         Standard error of each force [N/m].
+
+    Examples
+    --------
+    >>> cuts = Measurements(np.array([1e-4, 4e-4]), np.array([4.7, 13.9]))
+    >>> cuts.force_std is None
+    True
     """
 
     wire_radius: NDArray[np.float64]
@@ -86,6 +93,11 @@ class Material:
         xi [-].
     stiffening_exponent : float or None
         alpha of the Ogden solid, Eq. (1) [-].
+
+    Examples
+    --------
+    >>> Material(shear_modulus=685.0, shear_modulus_std=30.0).shear_modulus_std
+    30.0
     """
 
     shear_modulus: float | None = None
@@ -132,7 +144,7 @@ def read_measurements(path: str | PathLike[str]) -> Measurements:
     >>> print(measurements.force)
     [ 5.475  8.11  10.125 13.69  16.17 ]
     """
-    file = fspath(path)
+    file = file_name(path)
     with _opened(file) as stream:
         columns = _read_table(file, stream)
     radius = columns.get("wire_radius")
@@ -306,7 +318,7 @@ def read_material(path: str | PathLike[str]) -> Material:
     >>> material.shear_modulus, material.work_of_fracture
     (685.0, 6973.0)
     """
-    file = fspath(path)
+    file = file_name(path)
     properties: dict[str, float] = {}
     for key, value in _read_json_object(file):
         if key in ("name", "source"):

@@ -2,13 +2,47 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from surrogate.errors import InputError
+from surrogate.validation import shown
 
-__all__ = ["model_file", "models_folder"]
+__all__ = ["file_name", "model_file", "models_folder"]
 
 _PACKAGE = Path(__file__).resolve().parent
+
+
+def file_name(path: object) -> str:
+    """Return a path as text.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A file.
+
+    Returns
+    -------
+    str
+        Its name, with folders as given.
+
+    Raises
+    ------
+    InputError
+        If it is no path.
+
+    Examples
+    --------
+    >>> file_name(Path("cuts.csv"))
+    'cuts.csv'
+    """
+    try:
+        return os.fsdecode(path)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(
+            f"a file must be named by text or a path, but is {shown(path)} "
+            f"({type(path).__name__}); give the path of a file."
+        ) from None
 
 
 def models_folder() -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.util import find_spec
 from os import PathLike
 from pathlib import PurePath
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 
 from surrogate.errors import InputError, WirecutError
 from surrogate.identification import Identification
+from surrogate.paths import file_name
+from surrogate.validation import TOUGHNESS, one_number, shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +24,10 @@ __all__ = ["plot_identification", "save_identification"]
 
 SINGLE_COLUMN = (3.4, 2.9)
 """Width and height of a figure that fills one column of a journal [inch]."""
+
+PURE_SHEAR_TOUGHNESS = replace(
+    TOUGHNESS, name="pure_shear_toughness", remedy="give Gamma in joules a square metre"
+)
 
 _SMALL = 7.0
 _MEDIUM = 8.0
@@ -59,6 +66,8 @@ def plot_identification(
 
     Raises
     ------
+    InputError
+        If `identification` is not one, or the toughness not a number of 0 or more.
     WirecutError
         If matplotlib is not installed.
 
@@ -75,9 +84,16 @@ def plot_identification(
     >>> ax.get_xlabel()
     'wire radius $R_w$ [mm]'
     """
+    if not isinstance(identification, Identification):
+        raise InputError(
+            f"identification must be what identify returned, but is {shown(identification)} "
+            f"({type(identification).__name__}); give identify(wire_radius, force, shear_modulus)."
+        )
+    if pure_shear_toughness is not None:
+        pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
     if ax is None:
         ax = _new_axes()
-    radius = np.linspace(1e-6, 1.08, 201) * identification.wire_radius.max()
+    radius = np.linspace(0.0, 1.08, 201) * identification.wire_radius.max()
     handles = [
         _draw_measurements(ax, identification, force_label),
         *_draw_fit(ax, identification, radius),
@@ -123,9 +139,11 @@ def save_identification(
         ...
     surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
     """
+    file = file_name(file)
     if PurePath(file).suffix.lower() not in (".png", ".pdf", ".svg"):
         raise InputError(f"{file} has no picture's ending; choose .png, .pdf or .svg.")
     _require_matplotlib()
+    from matplotlib import rc_context
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=SINGLE_COLUMN, layout="constrained")
@@ -136,7 +154,8 @@ def save_identification(
         force_label=force_label,
     )
     try:
-        figure.savefig(file, dpi=300)
+        with rc_context({"pdf.fonttype": 42}):  # editable text, which journals ask for
+            figure.savefig(file, dpi=300)
     except OSError as error:
         raise InputError(f"{file} cannot be written ({error.strerror}); choose another.") from None
 
@@ -203,6 +222,7 @@ def _label(ax: Axes, largest_radius: float, handles: list[Any]) -> None:
     ax.set_ylim(bottom=min(0.0, ax.dataLim.y0))
     ax.set_xlabel("wire radius $R_w$ [mm]", fontsize=_MEDIUM)
     ax.set_ylabel("cutting force $F_{ss}/T$ [N/m]", fontsize=_MEDIUM)
+    ax.locator_params(nbins=6, steps=[1, 2, 5, 10])
     ax.tick_params(labelsize=_SMALL)
     ax.spines[["top", "right"]].set_visible(False)
     # Above the axes, where no data can be, whatever the line's slope.

@@ -125,6 +125,13 @@ def test_error_names_place_and_reason(write, content, place, reason):
 
 
 @pytest.mark.parametrize("read", [read_measurements, read_material])
+@pytest.mark.parametrize("path", [None, 3, [], np.zeros((3, 3))])
+def test_what_is_no_path_is_refused(read, path):
+    with pytest.raises(InputError, match=r"^a file must be named by text or a path, but is .*$"):
+        read(path)
+
+
+@pytest.mark.parametrize("read", [read_measurements, read_material])
 @pytest.mark.parametrize("name", ["missing.csv", ".", "nul\0byte"])
 def test_unreadable_file(tmp_path, read, name):
     with pytest.raises(InputError, match=r"cannot be read|not a file name"):

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from surrogate import identify, plot_identification
-from surrogate.errors import WirecutError
+from surrogate.errors import InputError, WirecutError
 from surrogate.plots import SINGLE_COLUMN, save_identification
 
 matplotlib = pytest.importorskip("matplotlib")
+Figure = pytest.importorskip("matplotlib.figure").Figure
 matplotlib.use("agg")
 
 RADIUS = np.array([0.1, 0.2, 0.3, 0.5]) * 1e-3
@@ -17,7 +18,7 @@ FALLING = [9.0, 7.2, 6.1, 3.9]
 
 def draw(force, **options):
     fit = identify(RADIUS, force, 685.0, **options)
-    ax = matplotlib.figure.Figure(figsize=SINGLE_COLUMN, layout="constrained").add_subplot()
+    ax = Figure(figsize=SINGLE_COLUMN, layout="constrained").add_subplot()
     return fit, plot_identification(fit, ax, pure_shear_toughness=2.6)
 
 
@@ -67,6 +68,16 @@ def test_returns_the_axes_given_and_leaves_the_rest_alone():
     new = plot_identification(identify(RADIUS, RISING, 685.0))
     assert new is not ax
     matplotlib.pyplot.close(new.figure)
+
+
+def test_what_cannot_be_drawn_is_refused_before_drawing():
+    fit, ax = draw(RISING)
+    with pytest.raises(InputError, match=r"must be what identify returned, but is 1\.6"):
+        plot_identification(1.6, ax)
+    with pytest.raises(InputError, match=r"pure_shear_toughness = -2.6 J/m\^2"):
+        plot_identification(fit, ax, pure_shear_toughness=-2.6)
+    with pytest.raises(InputError, match="a file must be named by text or a path"):
+        save_identification(fit, None)
 
 
 def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
