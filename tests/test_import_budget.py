@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import surrogate
 
 LOADED_BY_IMPORT = """
@@ -40,8 +42,11 @@ def test_every_public_name_is_there():
     assert not hasattr(surrogate, "no_such_name")
 
 
-def test_the_version_is_the_distributions():
-    project = Path(__file__).parent.parent / "pyproject.toml"
-    version = re.search(r'^version = "(.+)"$', project.read_text(encoding="utf-8"), re.MULTILINE)
-    assert version
-    assert surrogate.__version__ == version[1]
+@pytest.mark.parametrize(
+    ("file", "pattern"), [("CITATION.cff", r"^version: (.+)$"), ("CHANGELOG.md", r"^## (\S+)")]
+)
+def test_the_version_is_the_one_cited_and_the_latest_in_the_changelog(file, pattern):
+    text = (Path(__file__).parent.parent / file).read_text(encoding="utf-8")
+    stated = re.search(pattern, text, re.MULTILINE)
+    assert stated
+    assert surrogate.__version__ == stated[1]

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import surrogate
+
 ROOT = Path(__file__).resolve().parent.parent
 PROBE = """
 import surrogate
@@ -62,6 +64,7 @@ def probe(setup, folder):
 def test_wheel(checkout, tmp_path):
     pytest.importorskip("hatchling")
     wheel = build("build_wheel", checkout, tmp_path)
+    assert wheel.name.startswith(f"wirecut-{surrogate.__version__}-py3-")
     site = tmp_path / "site"
     with zipfile.ZipFile(wheel) as archive:
         names = set(archive.namelist())
