@@ -17,7 +17,7 @@ from surrogate.errors import InputError, WirecutError
 from surrogate.force import cutting_force
 from surrogate.identification import identify
 from surrogate.paths import model_file
-from surrogate.regimes import classify
+from surrogate.regimes import DOMINANT_SHARE, classify
 from surrogate.report import Record
 from surrogate.scene import Scene
 from surrogate.units import (
@@ -36,7 +36,7 @@ A number alone is in SI units (m, Pa, J/m2)."""
 
 _DESCRIPTIONS = {
     "wirecut": "Wire cutting of soft solids: forces, toughness and regimes (arXiv:2412.02021).",
-    "force": "Steady cutting force per sample thickness for each wire, and what it is made of.",
+    "force": "Steady cutting force per sample thickness of each wire, and what it is made of.",
     "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "models": "The force models that --model accepts.",
@@ -141,12 +141,16 @@ def _parser() -> argparse.ArgumentParser:
     for name, add_options, run in (
         ("force", _add_force_options, _force),
         ("identify", _add_identify_options, _identify),
-        ("regime", _add_scene_options, _regime),
+        ("regime", _add_regime_options, _regime),
         ("models", lambda command: None, _models),
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
         add_options(command)
-        command.add_argument("--json", action="store_true", help="print JSON in SI units")
+        command.add_argument(
+            "--json",
+            action="store_true",
+            help="print JSON in SI units, null for what is unknown or infinite",
+        )
         command.set_defaults(run=run)
     return parser
 
@@ -213,6 +217,17 @@ def _add_force_options(command: argparse.ArgumentParser) -> None:
     _add_model_option(command)
 
 
+def _add_regime_options(command: argparse.ArgumentParser) -> None:
+    _add_scene_options(command)
+    command.add_argument(
+        "--threshold",
+        type=_quantity(NUMBER),
+        default=DOMINANT_SHARE,
+        metavar="SHARE",
+        help="share of the force from which a term dominates (default 2/3)",
+    )
+
+
 def _add_model_option(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--model", default="eq13", help="force model, see 'wirecut models' (default eq13)"
@@ -272,7 +287,9 @@ def _force(options: argparse.Namespace) -> None:
 
 def _regime(options: argparse.Namespace) -> None:
     scene = _scene(options)
-    _print(options, report.regime_record(scene, classify(scene)), report.regime_text)
+    _print(
+        options, report.regime_record(scene, classify(scene, options.threshold)), report.regime_text
+    )
 
 
 def _models(options: argparse.Namespace) -> None:

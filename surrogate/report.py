@@ -4,26 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from textwrap import fill
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from surrogate.data import Material
+from surrogate.errors import DomainError
 from surrogate.force import CuttingForce
 from surrogate.force_models import FORCE_MODELS
 from surrogate.identification import Identification
 from surrogate.radii import fracto_cohesive_transition_radius
 from surrogate.regimes import Regime, classify
 from surrogate.scene import Scene
+from surrogate.validation import FloatOrArray
 
 Record: TypeAlias = "dict[str, Any]"
+
+NO_SCATTER, UNKNOWN = "no scatter", "unknown"
 
 
 def force_record(scene: Scene, force: CuttingForce) -> Record:
     """Return the force on each wire [N/m] and its parts."""
     wires = _rows(
         wire_radius=scene.wire_radius,
-        dimensionless_toughness=scene.dimensionless_toughness,
+        dimensionless_toughness=_dimensionless_toughness(scene),
         total=force.total,
         cleavage=force.cleavage,
         friction=force.friction,
@@ -56,11 +61,19 @@ def regime_record(scene: Scene, regime: Regime) -> Record:
     """Return the regime of each wire."""
     wires = _rows(
         wire_radius=scene.wire_radius,
-        dimensionless_toughness=scene.dimensionless_toughness,
+        dimensionless_toughness=_dimensionless_toughness(scene),
         dominant=regime.dominant,
         contact=regime.contact,
     )
     return {"threshold": regime.threshold, "wires": wires}
+
+
+def _dimensionless_toughness(scene: Scene) -> FloatOrArray:
+    """Return g, or nan for all wires where one of them has 0/0, which no force minds."""
+    try:
+        return scene.dimensionless_toughness
+    except DomainError:
+        return math.nan
 
 
 def regime_text(record: Record) -> str:
@@ -76,7 +89,8 @@ def regime_text(record: Record) -> str:
         for wire in record["wires"]
     ]
     return _table(header, rows) + (
-        f"\nA term dominates from {record['threshold']:.3g} of the force of Eq. (13) on."
+        f"\nA term dominates where it is {record['threshold']:.3g} of the force of Eq. (13) or "
+        "more; there is a transition where none is."
     )
 
 
@@ -98,6 +112,7 @@ def models_text(record: Record) -> str:
 
 def identification_record(fit: Identification, material: Material) -> Record:
     """Return estimates, lengths, transition radii, wires and warnings of an identification."""
+    lengths = _lengths(fit, material)
     return {
         "model": fit.model,
         "friction_coefficient": fit.friction_coefficient,
@@ -118,38 +133,64 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "correlation": fit.correlation,
         "r_squared": fit.r_squared,
         "reduced_chi_squared": fit.reduced_chi_squared,
-        "lengths": _lengths(fit, material),
-        "transition_radii": _transition_radii(fit, material),
+        "lengths": lengths,
+        "transition_radii": _transition_radii(fit, material, lengths),
         "wires": _identified_wires(fit),
         "warnings": list(fit.warnings),
     }
 
 
-def _lengths(fit: Identification, material: Material) -> dict[str, float]:
-    toughnesses = {"Gamma_o": fit.toughness}
-    if material.pure_shear_toughness is not None:
-        toughnesses["Gamma"] = material.pure_shear_toughness
-    lengths = {"l_w = Gamma_o/tau_w": fit.wear_length}
-    if material.work_of_fracture:
-        for symbol, toughness in toughnesses.items():
-            lengths[f"l_f = {symbol}/W_f"] = toughness / material.work_of_fracture
-    for symbol, toughness in toughnesses.items():
-        lengths[f"l_e = {symbol}/mu"] = toughness / fit.shear_modulus
+def _lengths(fit: Identification, material: Material) -> Record:
+    has_scatter = _is_more_than_rounding(fit.toughness_std, fit.toughness)
+    toughnesses = {
+        # Forces without scatter leave the error of Gamma_o unknown; it is not 0.
+        "": ("Gamma_o", fit.toughness, fit.toughness_std if has_scatter else None),
+        "_pure_shear": ("Gamma", material.pure_shear_toughness, material.pure_shear_toughness_std),
+    }
+    stresses = {
+        "fracto_cohesive": ("l_f", "W_f", material.work_of_fracture, material.work_of_fracture_std),
+        "elasto_cohesive": ("l_e", "mu", fit.shear_modulus, material.shear_modulus_std),
+    }
+    lengths = {"wear": _length("l_w = Gamma_o/tau_w", fit.wear_length, fit.wear_length_std)}
+    for name, (length, unit, stress, stress_std) in stresses.items():
+        for ending, (symbol, toughness, toughness_std) in toughnesses.items():
+            if toughness is not None and stress:
+                definition = f"{length} = {symbol}/{unit}"
+                lengths[name + ending] = _quotient(
+                    definition, toughness, toughness_std, stress, stress_std
+                )
     return lengths
 
 
-def _transition_radii(fit: Identification, material: Material) -> dict[str, float]:
+def _transition_radii(fit: Identification, material: Material, lengths: Record) -> Record:
     radii = {
-        "Eq. (13), both terms equal": fit.transition_radius,
-        "l_w/4": fit.wear_transition_radius,
+        "eq13": _length(
+            "Eq. (13), both terms equal", fit.transition_radius, fit.transition_radius_std
+        ),
+        "wear": _length("l_w/4", fit.wear_transition_radius, fit.wear_transition_radius_std),
     }
-    if material.work_of_fracture and material.pure_shear_toughness:
-        radii["l_f/4 with Gamma"] = float(
-            fracto_cohesive_transition_radius(
-                material.pure_shear_toughness, material.work_of_fracture
-            )
+    if l_f := lengths.get("fracto_cohesive_pure_shear"):
+        radius = fracto_cohesive_transition_radius(
+            material.pure_shear_toughness,  # type: ignore[arg-type]
+            material.work_of_fracture,  # type: ignore[arg-type]
         )
+        std = None if l_f["std"] is None else 0.25 * l_f["std"]
+        radii["fracto_cohesive"] = _length("l_f/4 with Gamma", float(radius), std)
     return radii
+
+
+def _quotient(
+    definition: str, value: float, std: float | None, divisor: float, divisor_std: float | None
+) -> Record:
+    """Return a length with the standard error of a quotient of independent measurements."""
+    length = value / divisor
+    if std is None or divisor_std is None:
+        return _length(definition, length, None)
+    return _length(definition, length, math.hypot(std, length * divisor_std) / divisor)
+
+
+def _length(definition: str, value: float, std: float | None) -> Record:
+    return {"definition": definition, "value": value, "std": std}
 
 
 def _identified_wires(fit: Identification) -> list[Record]:
@@ -210,22 +251,31 @@ def _estimates_text(record: Record) -> str:
         ("wear strength tau_w", "wear_strength", 1e-3, "kPa"),
     ):
         low, high = record[f"{key}_interval"]
-        std = _small_number(scale * record[f"{key}_std"], scale * record[key])
+        std = _std_text(record[key], record[f"{key}_std"], scale)
         interval = f"{_number(scale * low)} to {_number(scale * high)}"
-        if std == "0":
-            std = interval = "no scatter"
+        if std in (NO_SCATTER, UNKNOWN):
+            interval = std
         rows.append((name, _number(scale * record[key]), unit, std, interval))
     title, probability = f"Identified ({record['model']})", f"{100.0 * record['confidence']:.4g} %"
     header = (title, "value", "unit", "std. error", f"{probability} interval")
-    quality = f"correlation {_number(record['correlation'])}, R^2 = {record['r_squared']:.4f}"
+    quality = f"correlation {_number(record['correlation'])}"
+    if not math.isnan(record["r_squared"]):
+        quality += f", R^2 = {record['r_squared']:.4f}"
     if record["reduced_chi_squared"] is not None:
         quality += f", chi^2/dof = {_number(record['reduced_chi_squared'])}"
     return f"{_table(header, rows)}\n{quality}"
 
 
-def _lengths_text(title: str, lengths: Mapping[str, float]) -> str:
-    rows = [(name, _number(1e6 * length)) for name, length in lengths.items()]
-    return _table((title, "um"), rows)
+def _lengths_text(title: str, lengths: Mapping[str, Record]) -> str:
+    rows = [
+        (
+            length["definition"],
+            _number(1e6 * length["value"]),
+            _std_text(length["value"], length["std"], scale=1e6),
+        )
+        for length in lengths.values()
+    ]
+    return _table((title, "um", "std. error"), rows)
 
 
 def _wires_text(wires: Sequence[Record]) -> str:
@@ -235,7 +285,7 @@ def _wires_text(wires: Sequence[Record]) -> str:
             _number(1e3 * wire["wire_radius"]),
             _number(wire["dimensionless_toughness"]),
             _number(wire["force"], digits=5),
-            _small_number(wire["residual"], wire["force"]),
+            _residual_text(wire["residual"], wire["force"]),
             wire.get("dominant", "-"),
             wire.get("contact", "-"),
         )
@@ -245,7 +295,9 @@ def _wires_text(wires: Sequence[Record]) -> str:
 
 
 def _warnings_text(warnings: Iterable[str]) -> str:
-    return "\n".join(f"Warning: {sentence}." for sentence in warnings)
+    return "\n".join(
+        fill(f"Warning: {sentence}.", 96, subsequent_indent="  ") for sentence in warnings
+    )
 
 
 def _rows(**columns: Any) -> list[Record]:
@@ -260,15 +312,26 @@ def _rows(**columns: Any) -> list[Record]:
 def _number(value: float, digits: int = 4) -> str:
     """A few digits for people, without an exponent where none is needed."""
     if math.isnan(value):
-        return "unknown"
+        return UNKNOWN
     if 1e-3 <= abs(value) < 1e6:
         return np.format_float_positional(value, digits, fractional=False, trim="-")
     return f"{value:.{digits}g}"
 
 
-def _small_number(value: float, reference: float) -> str:
-    """Two digits; 0 for what is only rounding beside the reference."""
-    return "0" if abs(value) < 1e-12 * abs(reference) else _number(value, digits=2)
+def _std_text(value: float, std: float | None, scale: float) -> str:
+    """Two digits of a standard error, or why there are none."""
+    if std is None or math.isnan(std):
+        return UNKNOWN
+    return _number(scale * std, digits=2) if _is_more_than_rounding(std, value) else NO_SCATTER
+
+
+def _residual_text(value: float, force: float) -> str:
+    return _number(value, digits=2) if _is_more_than_rounding(value, force) else "0"
+
+
+def _is_more_than_rounding(value: float, reference: float) -> bool:
+    """Return whether a value counts beside the reference; nan does not."""
+    return abs(value) >= 1e-12 * abs(reference)
 
 
 def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -48,9 +48,9 @@ def test_example_prints_the_papers_numbers(capsys):
         "5 forces, read from the published line, from paam-wire-cutting.csv",
         r"cleavage toughness Gamma_o +1\.6 +J/m2",
         r"wear strength tau_w +7\.75 +kPa",
-        r"l_w = Gamma_o/tau_w +206\.5",
-        r"l_f = Gamma_o/W_f +229\.5",
-        r"l_f = Gamma/W_f +372\.9",
+        r"l_w = Gamma_o/tau_w +206\.5 +no scatter",
+        r"l_f = Gamma_o/W_f +229\.5 +unknown",
+        r"l_f = Gamma/W_f +372\.9 +39",
         r"l_e = Gamma_o/mu +2336",
         r"l_e = Gamma/mu +3796",
         r"Eq\. \(13\), both terms equal +51\.61",
@@ -67,7 +67,13 @@ def test_json_of_identify_holds_the_same_in_si_units(capsys):
     record = json.loads(capsys.readouterr().out)
     assert record["toughness"] == pytest.approx(1.6)
     assert record["wear_strength"] == pytest.approx(7750.0)
-    assert record["transition_radii"]["l_f/4 with Gamma"] == pytest.approx(93.2e-6, rel=1e-3)
+    radii, lengths = record["transition_radii"], record["lengths"]
+    assert radii["fracto_cohesive"]["value"] == pytest.approx(93.2e-6, rel=1e-3)
+    assert radii["eq13"]["value"] == pytest.approx(51.6e-6, rel=1e-3)
+    l_f = lengths["fracto_cohesive_pure_shear"]
+    relative = (0.2 / 2.6) ** 2 + (0.5 / 6.973) ** 2  # squares of the published standard errors
+    assert l_f["std"] == pytest.approx(l_f["value"] * relative**0.5)
+    assert lengths["fracto_cohesive"]["std"] is None  # the forces have no scatter
     assert [wire["wire_radius"] for wire in record["wires"]][-1] == 0.47e-3
 
 
@@ -98,6 +104,28 @@ def test_options_replace_the_properties_of_a_file(capsys):
     record = json.loads(capsys.readouterr().out)
     assert (record["shear_modulus"], record["shear_modulus_std"]) == (1000.0, None)
     assert (record["work_of_fracture"], record["work_of_fracture_std"]) == (6973.0, 500.0)
+
+
+def test_a_wire_and_a_toughness_of_nothing_have_a_force(capsys):
+    assert run("force --shear-modulus 0 --toughness 0 --wear-strength 1kPa --wire-radius 1mm") == 0
+    assert re.search(r"\n1 +unknown +4 +0 +0 +4 +yes", capsys.readouterr().out)
+
+
+def test_the_threshold_of_regimes(capsys):
+    wires = f"{SCENE} --wire-radius 0.1mm"  # wear is 66.0 % of the force
+    for options, dominant in (("", "transition"), ("--threshold 0.65", "wear")):
+        assert run(f"regime {wires} {options} --json") == 0
+        assert json.loads(capsys.readouterr().out)["wires"][0]["dominant"] == dominant
+
+
+def test_two_forces_have_no_known_error(capsys, tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n0.1,2\n0.2,3\n")
+    assert run(f"identify {file} --shear-modulus 685") == 0
+    printed = capsys.readouterr().out
+    assert re.search(r"Gamma_o +1 +J/m2 +unknown +unknown\n", printed)
+    assert re.search(r"l_w = Gamma_o/tau_w +400 +unknown\n", printed)
+    assert not re.search(r"\bnan\b", printed)
 
 
 @pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
@@ -133,6 +161,7 @@ def test_version(capsys):
         ("identify", "FILE"),
         ("identify missing.csv --shear-modulus 1Pa", "missing.csv cannot be read"),
         (f"identify {model_file('paam-wire-cutting.csv')}", "shear modulus is missing"),
+        (f"regime {SCENE} --wire-radius 1mm --threshold 0.5", "more than 0.5"),
         ("identify --example --confidence 95", "0.95 for 95 %"),
         ("identify --example --model power-law", "not linear"),
         ("identify --example --plot fit.doc", "choose .png, .pdf or .svg"),
