@@ -198,7 +198,7 @@ def _read_table(file: str, stream: BinaryIO) -> dict[str, NDArray[np.float64]]:
             value = parse_number(cell, column.power)
             if value is None or not 0.0 < value < np.inf:
                 place = f"{file}, line {line}, column {column.number} ({column.name})"
-                raise _refused(place, cell, value)
+                raise _refused(place, column.quantity, cell, value)
             column.values.append(value)
     if not columns[0].values:
         raise InputError(
@@ -272,10 +272,19 @@ def _quantity_and_power(place: str, name: str, quantities: dict[str, Dimension])
                 f"{place} ({name}) does not end with a unit of {quantity}; "
                 f"write {quantities[quantity].spellings(quantity)}."
             )
-    raise InputError(f"{place} ({name!r}) is not known; name one of {', '.join(quantities)}.")
+    raise InputError(
+        f"{place} ({name!r}) is not known; write one of {', '.join(quantities)} and its unit, "
+        f"such as {next(iter(quantities.values())).spellings(next(iter(quantities)))}."
+    )
 
 
-def _refused(place: str, cell: str, value: float | None) -> InputError:
+_REMEDIES = {
+    "force_per_thickness": "turn the sign if your machine counts compression as negative",
+    "force_std": "delete the column where standard errors are not known",
+}
+
+
+def _refused(place: str, quantity: str, cell: str, value: float | None) -> InputError:
     if not cell:
         return InputError(f"{place} is empty; fill the gap or delete the line.")
     if value is None:
@@ -284,7 +293,7 @@ def _refused(place: str, cell: str, value: float | None) -> InputError:
         )
     return InputError(
         f"{place}: {cell[:40]} is not a positive number within a computer's range; "
-        "correct it, and turn the sign if your machine counts compression as negative."
+        f"{_REMEDIES.get(quantity, 'correct it or delete the line')}."
     )
 
 

@@ -33,9 +33,10 @@ def force_record(scene: Scene, force: CuttingForce) -> Record:
         cleavage=force.cleavage,
         friction=force.friction,
         wear=force.wear,
+        relative_error=force.relative_error,
         in_domain=force.in_domain,
     )
-    return {"model": force.model, "relative_error": force.relative_error, "wires": wires}
+    return {"model": force.model, "wires": wires}
 
 
 def force_text(record: Record) -> str:

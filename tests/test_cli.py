@@ -90,6 +90,7 @@ def test_force_and_regime_of_several_wires(capsys):
     assert run(f"force {SCENE} --wire-radius 0.2mm 0.4mm --json") == 0
     wires = json.loads(capsys.readouterr().out)["wires"]
     assert [wire["total"] for wire in wires] == pytest.approx([1.6 + 6.2, 1.6 + 12.4])
+    assert [wire["relative_error"] for wire in wires] == [None, None]  # nobody knows one
     assert run(f"regime {SCENE} --wire-diameter 50um 0.5mm --json") == 0
     wires = json.loads(capsys.readouterr().out)["wires"]
     assert [wire["wire_radius"] for wire in wires] == [25e-6, 0.25e-3]

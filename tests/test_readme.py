@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import surrogate
 from surrogate.cli import main
 
 README = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
@@ -20,6 +21,13 @@ def blocks(language):
 def test_every_block_is_tested_or_a_set_up_command():
     assert {name for name, _ in BLOCKS} == {"", "csv", "console", "python"}
     assert blocks("") == ["make demo\nmake test\n"]
+
+
+def test_every_equation_of_the_table_is_public():
+    table = re.findall(r"^\| \(\d+\).*\|$", README, flags=re.MULTILINE)
+    names = re.findall(r"`(\w+)`", " ".join(table))
+    assert len(names) == 9
+    assert set(names) <= set(surrogate.__all__)
 
 
 def test_python_blocks():
