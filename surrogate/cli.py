@@ -107,8 +107,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0
     """
     try:
-        options = _parser().parse_args(arguments)
-        options.run(options)
+        try:
+            options = _parser().parse_args(arguments)
+            options.run(options)
+        finally:
+            sys.stdout.flush()  # here, where a reader that left early does no harm
     except WirecutError as error:
         print(f"wirecut: {error}", file=sys.stderr)
         return 2

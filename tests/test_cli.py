@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -180,9 +181,15 @@ def test_bad_input_ends_in_one_line_and_code_2(command, words, capsys, tmp_path,
     assert words in streams.err
 
 
-def test_a_reader_that_leaves_early_meets_no_traceback():
-    command = [sys.executable, "-m", "surrogate.cli", "identify", "--example", "--json"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+@pytest.mark.parametrize("arguments", ["identify --example --json", "identify --help"])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_that_leaves_early_meets_no_traceback(arguments, unbuffered):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "surrogate.cli", *arguments.split()],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+    )
     process.stdout.close()
     _, errors = process.communicate(timeout=60)
     assert errors == b""
