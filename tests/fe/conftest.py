@@ -21,9 +21,15 @@ class FramedBody(Body):
     components keep the value that they have in the displacements given to `relaxed`.
     """
 
-    def __init__(self, mesh, alpha, hold: Callable, pin_pressure: bool = False, **options):
-        self._hold, self._pin_pressure = hold, pin_pressure
+    def __init__(self, mesh, alpha, hold: Callable, **options):
+        self._hold = hold
         super().__init__(mesh, alpha, **options)
+
+    def nodal(self, function: Callable):
+        """Return displacements with the values of `function(X, Y)`; bubbles have none."""
+        u = np.array(function(*places_(self).T), dtype=float).T
+        u[np.unique(self.connectivity[:, 6:])] = 0.0
+        return u
 
     @property
     def notch_radius(self):
@@ -33,9 +39,23 @@ class FramedBody(Body):
     def _number_unknowns(self, basis, hold):
         self.face = np.array([], dtype=np.int64)
         self.held = np.asarray(self._hold(self.nodes), dtype=bool)
-        self.free = np.concatenate([~self.held.ravel(), np.ones(self.mesh.p.shape[1], dtype=bool)])
-        if self._pin_pressure:
-            self.free[self.displacements] = False
+        self.free = np.concatenate(
+            [~self.held.ravel(), np.ones(self.size - self.displacements, dtype=bool)]
+        )
+
+
+def places_(body):
+    """Return where each displacement unknown sits: nodes, and centroids for bubbles."""
+    places = body.nodes.copy()
+    for bubble in body.connectivity[:, 6:].T:
+        places[bubble] = body.mesh.p[:, body.mesh.t].mean(axis=1).T
+    return places
+
+
+@pytest.fixture(scope="session")
+def places():
+    """Where each displacement unknown sits."""
+    return places_
 
 
 @dataclass(frozen=True)
@@ -56,7 +76,7 @@ def relaxed_(body, u, p=None, load=0.0, goal=1e-13, iterations=25):
     """Return the equilibrium under a dead load, from `u` with its held values, by full steps."""
     solver = make_solver()
     u = u.copy()
-    p = np.zeros(body.mesh.p.shape[1]) if p is None else p.copy()
+    p = np.zeros(body.size - body.displacements) if p is None else p.copy()
     scale = body.scale[body.free]
     residuals = []
     for _ in range(iterations):

@@ -19,7 +19,7 @@ def solver(request):
 
 
 @pytest.fixture(scope="module")
-def matrices():
+def matrices(places):
     """Tangents of one body in three states: symmetric, indefinite, with a zero block."""
     from fe_training.body import Body
 
@@ -28,8 +28,8 @@ def matrices():
     return [
         body.matrix(
             body.element_forces(
-                size * np.hypot(*body.nodes.T)[:, None] * rng.normal(size=body.nodes.shape),
-                rng.normal(size=body.mesh.p.shape[1]),
+                size * np.hypot(*places(body).T)[:, None] * rng.normal(size=body.nodes.shape),
+                rng.normal(size=body.size - body.displacements),
             )[1]
         )
         for size in (0.0, 0.01, 0.1)
