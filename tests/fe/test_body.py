@@ -190,14 +190,14 @@ def test_convergence_rates_are_those_of_the_element(alpha, element, framed_body,
         return ogden.stress(shears(X, Y)[1], pressure_field(X, Y), alpha)
 
     found = []
-    for n in (4, 8, 16, 32):
+    for n in (8, 16, 32, 64):
         body = framed_body(unstructured_square(n), alpha, all_but_the_right_side, element=element)
         start = body.nodal(lambda *x: shears(*x)[0])
         state = relaxed(body, start, load=virtual_work(body, element, stress))
         found.append(errors(body, element, state))
     rates = np.log2(np.array(found[:-1]) / found[1:])
     # the mesh's own irregularity differs from size to size: a tenth of an order
-    np.testing.assert_array_less([2.9, 1.9, 1.9], rates[-2:].mean(axis=0))
+    np.testing.assert_array_less([2.9, 1.9, 1.9], rates[-1])
 
 
 def test_held_nodes_follow_the_choice_of_arc():
