@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from skfem import Basis, ElementTriP1, ElementTriP2, MeshTri
+from skfem import Basis, ElementTriCCR, ElementTriP1, ElementTriP1DG, ElementTriP2, MeshTri
 
 from . import kernels
 
@@ -16,8 +16,17 @@ Index = NDArray[np.int64]
 
 #: Quadrature exact for polynomials of this degree; more changes no result beyond the mesh error.
 _DEGREE = 4
+#: Displacement and pressure elements.  Crouzeix-Raviart (quadratics with a bubble, discontinuous
+#: linear pressure) keeps the area of every element; Taylor-Hood keeps it on patches only, and
+#: leaks along the sheared layer behind the contact when the toughness is high.
+ELEMENTS = {
+    "crouzeix-raviart": (ElementTriCCR, ElementTriP1DG),
+    "taylor-hood": (ElementTriP2, ElementTriP1),
+}
+#: Nodes of a triangle that share the motion of a rigid translation; a bubble does not.
+_RIGID = 6
 #: Elements within this many notch radii may be inverted on the way to equilibrium.
-NOTCH_REACH = 3.0
+NOTCH_REACH = 10.0
 
 
 class Body:
@@ -34,7 +43,7 @@ class Body:
     alpha : float
         Strain-stiffening exponent [-].
     bulk : float
-        Bulk term kappa beside the pressure [mu].
+        Bulk term kappa beside the pressure, beyond the first rings around the notch [mu].
     hold : {"right", "all", "none"}
         The part of the outer arc that is held.
     compiled : bool
@@ -48,20 +57,24 @@ class Body:
         bulk: float = 0.0,
         hold: str = "right",
         compiled: bool = True,
+        element: str = "taylor-hood",
     ) -> None:
         self.mesh, self.alpha = mesh, float(alpha)
         self.element_arrays = kernels.element_arrays(compiled)
-        basis = Basis(mesh, ElementTriP2(), intorder=_DEGREE)
-        pressure = basis.with_element(ElementTriP1())
+        displacement_element, pressure_element = ELEMENTS[element]
+        basis = Basis(mesh, displacement_element(), intorder=_DEGREE)
+        pressure = basis.with_element(pressure_element())
         self.nodes: Array = basis.doflocs.T.copy()
         self.connectivity: Index = basis.element_dofs.T.astype(np.int64)
         self.triangles: Index = pressure.element_dofs.T.astype(np.int64)
         self.grad: Array = np.ascontiguousarray(
             np.array([shape[0].grad for shape in basis.basis]).transpose(2, 3, 0, 1)
         )
-        self.psi: Array = np.array([shape[0].value[0] for shape in pressure.basis]).T.copy()
+        self.psi: Array = np.array([np.asarray(shape[0])[0] for shape in pressure.basis]).T.copy()
         self.dx: Array = basis.dx.copy()
-        self.bulk: Array = np.full(len(self.connectivity), float(bulk))
+        self.pressure_places: Array = pressure.doflocs.T.copy()
+        self.bulk: Array = np.zeros(len(self.connectivity))
+        self.bulk[self.beyond_notch] = bulk
         self._number_unknowns(basis, hold)
 
     @property
@@ -72,7 +85,7 @@ class Body:
     @property
     def size(self) -> int:
         """Number of unknowns, held ones included."""
-        return self.displacements + self.mesh.p.shape[1]
+        return self.displacements + len(self.pressure_places)
 
     @property
     def notch_radius(self) -> float:
@@ -101,7 +114,7 @@ class Body:
         held[arc[keep]] = True
         self.held = held
         self.free: NDArray[np.bool_] = np.concatenate(
-            [~held.ravel(), np.ones(self.mesh.p.shape[1], dtype=bool)]
+            [~held.ravel(), np.ones(len(self.pressure_places), dtype=bool)]
         )
 
     def _from_tip(self, face: Index) -> Index:
@@ -125,7 +138,7 @@ class Body:
     @cached_property
     def scale(self) -> Array:
         """Factors that bring displacement and pressure equations to one size."""
-        radius = np.maximum(np.hypot(*self.mesh.p), self.notch_radius)
+        radius = np.maximum(np.hypot(*self.pressure_places.T), self.notch_radius)
         return np.concatenate([np.ones(self.displacements), 1.0 / radius])
 
     @cached_property
@@ -161,25 +174,35 @@ class Body:
         residual : ndarray, shape (elements, 15)
         tangent : ndarray, shape (elements, 15, 15)
         """
-        local = u[self.connectivity]
-        # gradients of a rigid translation cancel; taking it out first keeps their digits
-        local = local - local[:, :1]
+        local = self._local(u)
         return self.element_arrays(
             local, p[self.triangles], self.grad, self.psi, self.dx, self.alpha, self.bulk
         )
 
+    def _local(self, u: Array, elements: Index | slice = slice(None)) -> Array:
+        """Return the displacements of each element's nodes relative to its first node.
+
+        Gradients of a rigid translation cancel; taking it out first keeps their digits.
+        """
+        local = u[self.connectivity[elements]]
+        local[:, :_RIGID] -= local[:, :1].copy()
+        return local
+
     def gather(self, residual: Array) -> Array:
         """Return the global residual, held unknowns included."""
-        return np.bincount(
+        total: Array = np.bincount(
             self.element_unknowns.ravel(), residual.ravel(), minlength=self.size
-        )
+        ).astype(np.float64, copy=False)
+        return total
 
     def matrix(self, tangent: Array) -> sp.csr_matrix:
         """Return the scaled tangent of the free unknowns."""
         rows, columns, pointers, target = self._pattern
-        data = np.bincount(target, tangent.ravel(), minlength=len(rows) + 1)[:-1]
+        data: Array = np.bincount(target, tangent.ravel(), minlength=len(rows) + 1)[:-1].astype(
+            np.float64, copy=False
+        )
         scale = self.scale[self.free]
-        data *= scale[rows] * scale[columns]
+        data = data * (scale[rows] * scale[columns])
         count = len(pointers) - 1
         return sp.csr_matrix((data, columns, pointers), shape=(count, count))
 
@@ -193,9 +216,11 @@ class Body:
 
     def displacement_gradient(self, u: Array, elements: Index | slice = slice(None)) -> Array:
         """Return grad u at the quadrature points, shape (2, 2, elements, points)."""
-        local = u[self.connectivity[elements]]
-        return np.einsum("eni,eqnj->ijeq", local - local[:, :1], self.grad[elements])
+        arm = self._local(u, elements).transpose(0, 2, 1)[:, None]
+        gradient: Array = np.moveaxis(arm @ self.grad[elements], (2, 3), (0, 1))
+        return gradient
 
     def pressure_at_points(self, p: Array, elements: Index | slice = slice(None)) -> Array:
         """Return the pressure at the quadrature points, shape (elements, points)."""
-        return np.einsum("em,qm->eq", p[self.triangles[elements]], self.psi)
+        values: Array = np.einsum("em,qm->eq", p[self.triangles[elements]], self.psi)
+        return values

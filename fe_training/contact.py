@@ -95,9 +95,7 @@ def nodal_forces(body: Body, residual: Array, geo: Geometry, active: ActiveSet) 
     return np.where(active.any, np.einsum("ij,ij->i", force, geo.normal), 0.0)
 
 
-def updated(
-    body: Body, u: Array, centre: Array, active: ActiveSet, force: Array
-) -> ActiveSet:
+def updated(body: Body, u: Array, centre: Array, active: ActiveSet, force: Array) -> ActiveSet:
     """Return the active set after a Newton step that gave displacements `u` and forces `force`."""
     pull = -_PULL * max(float(np.abs(force).sum()), 1e-12)
     position = body.nodes[body.face] + u[body.face]

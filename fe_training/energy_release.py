@@ -24,7 +24,8 @@ Array = NDArray[np.float64]
 def plateau(body: Body, inner: float, outer: float) -> Array:
     """Return q at the vertices: 1 within `inner`, 0 beyond `outer`, falling with log r."""
     r = np.hypot(*body.mesh.p)
-    return np.clip(np.log(outer / r) / np.log(outer / inner), 0.0, 1.0)
+    q: Array = np.clip(np.log(outer / r) / np.log(outer / inner), 0.0, 1.0)
+    return q
 
 
 def domain_integral(body: Body, state: State, inner: float, outer: float) -> float:
@@ -44,7 +45,7 @@ def domain_integral(body: Body, state: State, inner: float, outer: float) -> flo
         J/(mu R_w) [-].
     """
     q = plateau(body, inner, outer)
-    corners, values = body.mesh.p[:, body.triangles.T], q[body.triangles.T]
+    corners, values = body.mesh.p[:, body.mesh.t], q[body.mesh.t]
     (a, b), (dq1, dq2) = corners[:, 1:] - corners[:, :1], values[1:] - values[0]
     det = a[0] * b[1] - a[1] * b[0]
     slope = np.array([dq1 * b[1] - dq2 * b[0], dq2 * a[0] - dq1 * a[1]]) / det

@@ -105,7 +105,7 @@ def undeformed(body: Body, position: float) -> State:
     n = len(body.face)
     return State(
         np.zeros((len(body.nodes), 2)),
-        np.zeros(body.mesh.p.shape[1]),
+        np.zeros(len(body.pressure_places)),
         np.array([position, -1.0]),
         contact.no_contact(body),
         np.zeros(n),

@@ -103,9 +103,10 @@ def _ring_radii(spec: MeshSpec) -> Array:
         ratio = min(_LARGEST_RATIO, 1.0 + (ratio - 1.0) * 1.1)
         radii.append(radii[-1] * ratio)
     scaled = np.array(radii)
-    return scaled * (spec.outer_radius / scaled[-1]) ** (
+    stretched: Array = scaled * (spec.outer_radius / scaled[-1]) ** (
         np.log(scaled / scaled[0]) / np.log(scaled[-1] / scaled[0])
     )
+    return stretched
 
 
 def _half_annulus(radii: Array, sectors: int) -> MeshTri:
@@ -114,8 +115,8 @@ def _half_annulus(radii: Array, sectors: int) -> MeshTri:
     cos, sin = np.cos(angles), np.sin(angles)
     cos[-1], sin[0], sin[-1] = -1.0, 0.0, 0.0
     points = np.array([np.outer(radii, cos), np.outer(radii, sin)]).reshape(2, -1)
-    k, j = np.meshgrid(np.arange(len(radii) - 1), np.arange(sectors), indexing="ij")
-    k, j = k.ravel(), j.ravel()
+    ring, sector = np.meshgrid(np.arange(len(radii) - 1), np.arange(sectors), indexing="ij")
+    k, j = ring.ravel(), sector.ravel()
     a = k * (sectors + 1) + j
     b, d = a + 1, a + sectors + 1
     c = d + 1

@@ -7,6 +7,7 @@ installed, MUMPS where python-mumps is.
 
 from __future__ import annotations
 
+import weakref
 from abc import ABC, abstractmethod
 from importlib.util import find_spec
 from typing import Any
@@ -56,15 +57,17 @@ class SuperLU(LinearSolver):
 
 
 class Pardiso(LinearSolver):
-    """Intel's PARDISO through pypardiso, its analysis reused from matrix to matrix."""
+    """Intel's PARDISO through pypardiso: symmetric indefinite, its analysis reused."""
 
     name = "pardiso"
+    _SYMMETRIC_INDEFINITE = -2
 
     def __init__(self) -> None:
         import pypardiso
 
-        self._solver: Any = pypardiso.PyPardisoSolver()
-        self._analysed = False
+        self._solver: Any = pypardiso.PyPardisoSolver(mtype=self._SYMMETRIC_INDEFINITE)
+        self._upper: NDArray[np.int64] | None = None
+        weakref.finalize(self, self._solver.free_memory, everything=True)
 
     def _call(self, phase: int, right: Array) -> Array:
         self._solver.set_phase(phase)
@@ -72,19 +75,20 @@ class Pardiso(LinearSolver):
 
     def factorize(self, matrix: sp.csr_matrix) -> None:
         """Factorise a new matrix; the first one fixes the ordering."""
-        self._matrix = matrix
-        nothing = np.zeros((matrix.shape[0], 1), order="F")
-        self._call(22 if self._analysed else 12, nothing)
-        self._analysed = True
+        first = self._upper is None
+        if first:
+            rows = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+            self._upper = np.flatnonzero(matrix.indices >= rows)
+            self._pattern = sp.triu(matrix, format="csr")
+        self._matrix = sp.csr_matrix(
+            (matrix.data[self._upper], self._pattern.indices, self._pattern.indptr),
+            shape=matrix.shape,
+        )
+        self._call(12 if first else 22, np.zeros((matrix.shape[0], 1), order="F"))
 
     def solve(self, right: Array) -> Array:
         """Return the solutions for the columns of `right`."""
         return self._call(33, np.asfortranarray(right))
-
-    def __del__(self) -> None:
-        solver = getattr(self, "_solver", None)
-        if solver is not None and self._analysed:
-            solver.free_memory(everything=True)
 
 
 class Mumps(LinearSolver):

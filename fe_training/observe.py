@@ -1,0 +1,134 @@
+"""What an equilibrium tells: the contact arc, the pressure on the wire, the stress ahead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from skfem import ElementTriP1, ElementTriP2, FacetBasis
+
+from . import ogden
+from .body import Body
+from .equilibrium import State
+
+Array = NDArray[np.float64]
+
+#: Nodes from which the end of the arc is extrapolated, the outermost ones left out.
+_END_NODES, _LEFT_OUT = 6, 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactArc:
+    """The part of the wire that touches the body.
+
+    Parameters
+    ----------
+    theta_1, theta_2 : float
+        Its ends, from the cutting direction about the wire's centre [rad].
+    theta, pressure : ndarray
+        Angles of the touching nodes [rad] and the contact pressure there [mu].
+    """
+
+    theta_1: float
+    theta_2: float
+    theta: Array
+    pressure: Array
+
+    @property
+    def length(self) -> float:
+        """A = cos(theta_1) - cos(theta_2) [-]."""
+        return float(np.cos(self.theta_1) - np.cos(self.theta_2))
+
+
+def contact_arc(body: Body, state: State) -> ContactArc:
+    """Return the contact arc and the pressure on it.
+
+    The pressure falls to zero like a square root at a free end, so its square is extrapolated
+    linearly from the last nodes; the end lies between the last touching node and its neighbour.
+    """
+    position = body.nodes[body.face] + state.u[body.face]
+    theta_all = np.arctan2(position[:, 1], position[:, 0] - state.centre[0])
+    touching = np.flatnonzero(state.active.wire)
+    if len(touching) < 2:
+        return ContactArc(np.nan, np.nan, np.empty(0), np.empty(0))
+    pressure = (state.force / _tributary(position))[touching]
+    theta = theta_all[touching]
+    before = theta_all[touching[0] - 1] if touching[0] > 0 else 0.0
+    after = theta_all[min(touching[-1] + 1, len(theta_all) - 1)]
+    return ContactArc(
+        max(_end(theta, pressure, before), 0.0),
+        _end(theta[::-1], pressure[::-1], after),
+        theta,
+        pressure,
+    )
+
+
+def _tributary(position: Array) -> Array:
+    """Return the deformed length that belongs to each face node of the quadratic edges."""
+    half = np.hypot(*np.diff(position, axis=0).T)
+    edge = half[0::2] + half[1::2]
+    length = np.zeros(len(position))
+    length[:-2:2] += edge / 6.0
+    length[1::2] += edge * (4.0 / 6.0)
+    length[2::2] += edge / 6.0
+    return length
+
+
+def _end(theta: Array, pressure: Array, neighbour: float) -> float:
+    """Return the angle at which the pressure vanishes, for nodes ordered from that end."""
+    last = theta[0]
+    near = slice(_LEFT_OUT, _LEFT_OUT + _END_NODES)
+    if len(theta) < _LEFT_OUT + 2:
+        return float(0.5 * (last + neighbour))
+    slope, offset = np.polyfit(theta[near] - last, pressure[near] ** 2, 1)
+    zero = last - offset / slope if slope != 0 else neighbour
+    low, high = sorted((last, neighbour))
+    return float(np.clip(zero, low, high))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StressAhead:
+    """Cauchy stress on the ligament.
+
+    Parameters
+    ----------
+    reference, deformed : ndarray
+        Distance from the tip before and after deformation [R_w].
+    opening : ndarray
+        sigma_22, the stress that opens the crack [mu].
+    """
+
+    reference: Array
+    deformed: Array
+    opening: Array
+
+
+def stress_ahead(body: Body, state: State, reach: float = 100.0) -> StressAhead:
+    """Return the opening stress on the ligament up to `reach` wire radii before deformation."""
+    facets = body.mesh.boundary_facets()
+    middle = body.mesh.p[:, body.mesh.facets[:, facets]].mean(axis=1)
+    ligament = facets[(middle[1] == 0) & (middle[0] > 0) & (middle[0] < reach)]
+    basis = FacetBasis(body.mesh, ElementTriP2(), facets=ligament, intorder=2)
+    pressure = np.asarray(basis.with_element(ElementTriP1()).interpolate(state.p))
+    components = [basis.interpolate(np.ascontiguousarray(state.u[:, i])) for i in (0, 1)]
+    H = np.array([component.grad for component in components])
+    P = ogden.stress(H, pressure, body.alpha)
+    F22 = 1.0 + H[1, 1]
+    sigma = (P[1, 0] * H[1, 0] + P[1, 1] * F22) / (1.0 + ogden.volume_change(H))
+    X = np.asarray(basis.global_coordinates())[0].ravel()
+    x = X + np.asarray(components[0]).ravel()
+    tip = body.face[0]
+    order = np.argsort(X)
+    start = body.nodes[tip, 0]
+    return StressAhead(
+        (X - start)[order], (x - start - state.u[tip, 0])[order], sigma.ravel()[order]
+    )
+
+
+def largest_stretch(body: Body, state: State) -> float:
+    """Return the largest principal stretch over the quadrature points."""
+    H = body.displacement_gradient(state.u)
+    s = np.hypot(2.0 + H[0, 0] + H[1, 1], H[1, 0] - H[0, 1])
+    d = np.hypot(H[0, 0] - H[1, 1], H[1, 0] + H[0, 1])
+    return float(0.5 * (s + d).max())

@@ -1,0 +1,171 @@
+"""Following a path of equilibria: step control, acceptance, and landing on a wanted value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import ogden
+from .body import Body
+from .equilibrium import Control, NewtonOutcome, State, control_value, equilibrate
+from .solvers import LinearSolver
+
+#: A state in which an element has lost this much of its area has folded: it is another branch.
+LEAST_DETERMINANT = 0.1
+_QUICK = 7
+_GROWTH = 1.4
+_SMALLEST_SHARE = 1 / 64
+_SECANTS = 12
+
+
+class PathStalledError(RuntimeError):
+    """No acceptable equilibrium was found at the smallest step.
+
+    Parameters
+    ----------
+    state : State
+        The last equilibrium.
+    control : Control
+        What was moved.
+    value : float
+        Where it was tried.
+    outcome : NewtonOutcome
+        How the last attempt ended; CONVERGED means that the state found had folded elements.
+    """
+
+    def __init__(
+        self, state: State, control: Control, value: float, outcome: NewtonOutcome
+    ) -> None:
+        self.state, self.control, self.value, self.outcome = state, control, value, outcome
+        super().__init__(f"{control.value}: no equilibrium at {value:.6g} ({outcome.value})")
+
+
+def least_determinant(
+    body: Body, state: State, elements: NDArray[np.int64] | slice = slice(None)
+) -> float:
+    """Return the smallest det F over the quadrature points of some elements, by default all."""
+    return float(1.0 + ogden.volume_change(body.displacement_gradient(state.u, elements)).min())
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """Step sizes of one stretch of a path.
+
+    Parameters
+    ----------
+    first, largest : float
+        In the unit of the control.
+    """
+
+    first: float
+    largest: float
+
+
+def _attempt(
+    body: Body, state: State, control: Control, target: float, solver: LinearSolver
+) -> tuple[State | None, NewtonOutcome]:
+    found, outcome = equilibrate(body, state, control, target, solver)
+    if outcome is not NewtonOutcome.CONVERGED:
+        return None, outcome
+    if least_determinant(body, found, body.beyond_notch) < LEAST_DETERMINANT:
+        return None, outcome
+    return found, outcome
+
+
+def follow(
+    body: Body,
+    state: State,
+    control: Control,
+    end: float,
+    steps: Steps,
+    solver: LinearSolver,
+) -> Iterator[State]:
+    """Yield the equilibria on the way to `end`, the last of them there.
+
+    Parameters
+    ----------
+    body : Body
+    state : State
+        Where the path begins; not yielded.
+    control : Control
+        What is moved.
+    end : float
+        Where to.
+    steps : Steps
+        Step sizes; a step that fails is halved, one that converges quickly grows.
+    solver : LinearSolver
+
+    Raises
+    ------
+    PathStalledError
+        If even 1/64 of the first step fails.
+    """
+    here = control_value(body, state, control)
+    sign = np.sign(end - here)
+    size = steps.first
+    while sign * (end - here) > 1e-12 * max(1.0, abs(end)):
+        there = here + sign * size
+        if sign * (end - there) < 0.2 * size:
+            there = end
+        found, outcome = _attempt(body, state, control, there, solver)
+        if found is None:
+            size = 0.5 * min(size, abs(there - here))
+            if size < _SMALLEST_SHARE * steps.first:
+                raise PathStalledError(state, control, there, outcome)
+            continue
+        state, here = found, there
+        if state.iterations <= _QUICK:
+            size = min(size * _GROWTH, steps.largest)
+        yield state
+
+
+def land(
+    body: Body,
+    state: State,
+    control: Control,
+    measure: Callable[[State], float],
+    target: float,
+    known: list[tuple[float, float]],
+    solver: LinearSolver,
+    tolerance: float = 1e-6,
+) -> State:
+    """Return the equilibrium at which ``log(measure)`` meets its target, by the secant method.
+
+    Parameters
+    ----------
+    body : Body
+    state : State
+        An equilibrium near the one wanted.
+    control : Control
+        What is moved to get there.
+    measure : callable
+        A positive, monotonic function of the state, such as J.
+    target : float
+        Its wanted value.
+    known : list of (control value, measure)
+        Two points at least, passed or estimated; the nearest two start the secant.
+    solver : LinearSolver
+    tolerance : float
+        Relative error allowed.
+
+    Raises
+    ------
+    PathStalledError
+        If an equilibrium on the way is not found.
+    """
+    miss = [(abs(np.log(m / target)), x, np.log(m)) for x, m in known]
+    (_, x0, y0), (_, x1, y1) = sorted(miss)[:2]
+    goal = np.log(target)
+    for _ in range(_SECANTS):
+        x = x0 + (goal - y0) * (x1 - x0) / (y1 - y0)
+        found, outcome = _attempt(body, state, control, x, solver)
+        if found is None:
+            raise PathStalledError(state, control, x, outcome)
+        state = found
+        x1, y1, x0, y0 = x0, y0, x, np.log(measure(state))
+        if abs(y0 - goal) < tolerance:
+            break
+    return state

@@ -1,0 +1,84 @@
+"""Configurations by energy release rate, by distance and by insertion, on coarse meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fe_training.record import Outcome, Record
+from fe_training.reference import far_field_wedge
+from fe_training.solve import Settings, solve, solve_path
+from surrogate.errors import InputError
+
+COARSE = Settings(sectors=16, contact_spacing=0.15, notch_radius=5e-3, outer_radius=1e5)
+
+
+@pytest.fixture(scope="module")
+def path() -> list[Record]:
+    """Return a path that crosses both branches."""
+    return solve_path(5.0, [2.0, 0.02, 0.8], COARSE)
+
+
+def test_records_come_in_rising_order_at_the_values_wanted(path):
+    assert [r.energy_release_rate for r in path] == pytest.approx([0.02, 0.8, 2.0], rel=1e-3)
+
+
+def test_results_move_as_the_mechanics_says(path):
+    distance = [r.distance for r in path]
+    load = [r.normal_load for r in path]
+    assert distance == sorted(distance, reverse=True)
+    assert load == sorted(load)
+    assert all(0 <= r.theta_1 < r.theta_2 < np.pi for r in path)
+    assert all((r.pressure > -1e-6 * r.pressure.max()).all() for r in path)
+
+
+def test_the_configurational_balance_holds(path):
+    # coarse meshes: the shipped bounds are for the standard ones
+    near = path[1:]
+    assert all(r.force_mismatch < 5e-3 for r in near)
+    assert all(r.support_spread < 5e-3 for r in near)
+
+
+def test_the_far_field_is_the_linear_wedge(path):
+    far = path[0]
+    wedge = far_field_wedge(far.distance)
+    assert far.normal_load == pytest.approx(wedge.vertical_force, rel=0.02)
+    assert far.energy_release_rate == pytest.approx(wedge.energy_release_rate, rel=0.05)
+
+
+def test_the_pressure_carries_the_vertical_force(path):
+    for r in path:
+        order = np.argsort(r.pressure_angle)
+        theta, pressure = r.pressure_angle[order], r.pressure[order]
+        load = pressure * np.sin(theta)
+        force = 0.5 * (load[1:] + load[:-1]) @ np.diff(theta)
+        assert force == pytest.approx(r.normal_load, rel=0.05)
+
+
+def test_the_same_configuration_by_distance_and_by_insertion(path):
+    wanted = path[1]
+    by_distance = solve(5.0, distance=wanted.distance, settings=COARSE)
+    by_insertion = solve(5.0, insertion=wanted.insertion, settings=COARSE)
+    for other in (by_distance, by_insertion):
+        assert other.energy_release_rate == pytest.approx(wanted.energy_release_rate, rel=1e-4)
+        assert other.normal_load == pytest.approx(wanted.normal_load, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        ({"alpha": 0.5, "g": 1.0}, "alpha"),
+        ({"alpha": 2.0, "g": -1.0}, "g"),
+        ({"alpha": 2.0, "g": np.nan}, "g"),
+        ({"alpha": 2.0, "distance": 0.9}, "distance"),
+        ({"alpha": 2.0}, "exactly one"),
+        ({"alpha": 2.0, "g": 1.0, "distance": 2.0}, "exactly one"),
+    ],
+)
+def test_bad_input_is_named(arguments, word):
+    with pytest.raises(InputError, match=word):
+        solve(**arguments)
+
+
+def test_every_outcome_but_success_has_a_remedy():
+    assert all(bool(o.remedy) != (o is Outcome.CONVERGED) for o in Outcome)
