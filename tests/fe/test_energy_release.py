@@ -31,12 +31,23 @@ def test_rate_does_not_depend_on_the_support_and_is_twice_the_force(name, reques
     assert rates[2:] == pytest.approx(2 * cut.state.horizontal_force, rel=2e-4)
 
 
-def test_rate_depends_less_on_the_support_on_a_finer_mesh(cut, cut_of):
-    coarse = abs(spread(cut)[0] / (2 * cut.state.horizontal_force) - 1)
-    fine = cut_of(2.0, sectors=28)
-    finer = abs(spread(fine)[0] / (2 * fine.state.horizontal_force) - 1)
+def mismatch(cut):
+    """Root mean square of J/(2 F_h) - 1 over positions of the wire, J inside the contact.
+
+    The ends of the contact lie anywhere between nodes, so the error at one position has any sign
+    and may be small by chance; its size shows over several.
+    """
+    errors = []
+    for position in (-1.2, -1.15, -1.1, -1.05, -1.0, -0.95):
+        state = cut.moved(Control.POSITION, position)
+        rate = domain_integral(cut.body, state, *SUPPORTS[0])
+        errors.append(rate / (2 * state.horizontal_force) - 1)
+    return np.sqrt(np.mean(np.square(errors)))
+
+
+def test_rate_differs_less_from_the_force_on_a_finer_mesh(cut, cut_of):
     # energies converge with the square of the gradient's error; half the order is asked for
-    assert finer[0] < coarse[0] / 2
+    assert mismatch(cut_of(2.0, sectors=28)) < mismatch(cut) / 2
 
 
 def test_rate_is_the_energy_lost_in_a_true_shift_of_the_tip(cut):
