@@ -17,7 +17,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from .errors import MissingExtraError
+from .errors import InputError, MissingExtraError
 
 Array = NDArray[np.float64]
 
@@ -112,7 +112,8 @@ class Mumps(LinearSolver):
 
     def solve(self, right: Array) -> Array:
         """Return the solutions for the columns of `right`."""
-        return np.column_stack([self._context.solve(column) for column in right.T])
+        columns = [self._context.solve(column) for column in np.atleast_2d(right.T)]
+        return np.stack(columns, axis=-1).reshape(right.shape)
 
 
 _SOLVERS: dict[str, tuple[str, type[LinearSolver]]] = {
@@ -142,6 +143,8 @@ def make_solver(name: str | None = None) -> LinearSolver:
 
     Raises
     ------
+    InputError
+        If the name is unknown.
     MissingExtraError
         If the solver named is not installed.
 
@@ -153,6 +156,8 @@ def make_solver(name: str | None = None) -> LinearSolver:
     usable = available_solvers()
     if name is None:
         name = usable[0]
+    if name not in _SOLVERS:
+        raise InputError(f"solver = {name!r} is unknown; known: {', '.join(_SOLVERS)}")
     if name not in usable:
         known = ", ".join(usable)
         raise MissingExtraError(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fe_training import solvers
-from fe_training.errors import MissingExtraError
+from fe_training.errors import InputError, MissingExtraError
 from fe_training.mesh import MeshSpec, crack_mesh
 
 SPEC = MeshSpec(notch_radius=0.05, outer_radius=3.0, sectors=5, contact_spacing=1.0)
@@ -115,3 +115,8 @@ def test_a_missing_solver_is_named_with_a_remedy(name, monkeypatch):
     monkeypatch.setattr(solvers, "find_spec", lambda package: package == "scipy" or None)
     with pytest.raises(MissingExtraError, match=rf"'{name}'.*superlu.*pip install"):
         solvers.make_solver(name)
+
+
+def test_an_unknown_solver_is_named_with_those_that_exist():
+    with pytest.raises(InputError, match="'mystery' is unknown.*superlu"):
+        solvers.make_solver("mystery")
