@@ -1,0 +1,369 @@
+"""The command `python -m fe_training`: configurations of the wire without writing Python."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from .errors import InputError, WirecutError
+
+if TYPE_CHECKING:
+    from .body import Body
+    from .equilibrium import State
+    from .record import Record
+    from .solve import Settings
+
+_NAME = "python -m fe_training"
+_RESOLUTIONS = ("coarse", "standard", "fine")
+_PICTURES = (".png", ".pdf", ".svg")
+#: Packages of the extra `train`.
+_EXTRA = {"scipy", "skfem", "sklearn", "joblib", "h5py", "tqdm", "matplotlib"}
+#: Relative difference between the wanted and the reached g that is pointed out.
+_CLOSE = 1e-3
+
+_OVERVIEW = """\
+Finite-element solutions of a rigid wire in the crack of a soft solid (arXiv:2412.02021)."""
+
+_SOLVE = """\
+Solve configurations of a rigid wire in the crack of an incompressible Ogden solid.
+
+Lengths are in wire radii R_w, stresses in the shear modulus mu.  A configuration is chosen by
+  g = J/(mu R_w)   energy release rate; in steady cutting the dimensionless toughness
+  distance         delta/R_w, from the wire's centre to the crack tip, deformed
+  insertion        x_w/R_w, position of the wire's centre; the unloaded tip is at 0
+"""
+
+_EXAMPLE = """\
+examples:
+  python -m fe_training solve --alpha 9 --g 1 --resolution coarse
+      one configuration in some ten seconds; then a whole path, with its records and a picture:
+  python -m fe_training solve --alpha 5 --g 0.8 1.2 2 --json path.json --plot path.png
+
+the table:
+  g          J/(mu R_w), by the domain integral next to the tip (the wanted one if not reached)
+  delta/R_w  deformed distance from the wire's centre to the tip
+  A          cos(theta_1) - cos(theta_2), of the ends of the contact arc
+  B          F_v/(mu R_w T), the force that opens one half of the cut
+  |J-2F_h|/J the evidence: zero in exact equilibrium of a large body
+  time       seconds since the configuration before
+
+exit codes: 0 all reached, 1 some not reached, 2 bad input or a package missing
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The arguments after the command's name; those of the process by default.
+
+    Returns
+    -------
+    int
+        0, or 1 if a configuration was not reached, or 2 after bad input or where a package is
+        missing, with the reason in one line on the standard error stream.
+
+    Examples
+    --------
+    >>> main(["solve", "--alpha", "5"]) == 2  # neither g nor distance nor insertion
+    True
+    """
+    try:
+        try:
+            options = _parser().parse_args(arguments)
+            return _solve(options)
+        finally:
+            sys.stdout.flush()  # here, where a reader that left early does no harm
+    except WirecutError as error:
+        return _refused(str(error))
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package not in _EXTRA:
+            raise
+        return _refused(f"{package} is not installed; get it with: pip install 'wirecut[train]'")
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        sys.stderr.write("\nfe_training: interrupted\n")
+        return 130
+
+
+def _refused(reason: str) -> int:
+    sys.stderr.write(f"fe_training: {' '.join(reason.split())}\n")
+    return 2
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose complaints take one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}; see '{self.prog} --help'.")
+
+
+def _number(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
+    return value
+
+
+def _parser() -> argparse.ArgumentParser:
+    shape: dict[str, Any] = {
+        "formatter_class": argparse.RawDescriptionHelpFormatter,
+        "epilog": _EXAMPLE,
+        "allow_abbrev": False,
+    }
+    parser = _Parser(prog=_NAME, description=_OVERVIEW, **shape)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="command")
+    solve = commands.add_parser(
+        "solve", help="solve one configuration or a path of them", description=_SOLVE, **shape
+    )
+    add = solve.add_argument
+    add("--alpha", type=_number, required=True, help="stiffening exponent of the solid, 2 to 9")
+    where = solve.add_mutually_exclusive_group(required=True)
+    where.add_argument(
+        "--g", type=_number, nargs="+", metavar="G", help="values of J/(mu R_w), 2.5e-3 to 100"
+    )
+    where.add_argument("--distance", type=_number, metavar="X", help="delta/R_w, above 1")
+    where.add_argument("--insertion", type=_number, metavar="X", help="x_w/R_w, such as -1.2")
+    add(
+        "--resolution",
+        choices=_RESOLUTIONS,
+        default="standard",
+        help="how fine the mesh is; standard unless given",
+    )
+    add("--json", metavar="FILE", help="write the records with their profiles to this file")
+    add("--plot", metavar="FILE", help="draw mesh, J and stress ahead (.png, .pdf, .svg)")
+    return parser
+
+
+def _solve(options: argparse.Namespace) -> int:
+    _check_files(options)
+    _check_ranges(options)
+    from .resolutions import RESOLUTIONS
+
+    settings = RESOLUTIONS[options.resolution]
+    records = _records(options, settings)
+    wanted = _wanted(options)
+    _write(_table(records, wanted))
+    if options.json:
+        _write_json(options, records, wanted)
+    if options.plot:
+        _draw(options.plot, records, settings)
+    for record, target in zip(records, wanted, strict=True):
+        _remark(record, target)
+    return 0 if all(_is_reached(record) for record in records) else 1
+
+
+def _wanted(options: argparse.Namespace) -> list[tuple[str, float]]:
+    """Return name and value of what was asked for, in the order of the records."""
+    if options.g is not None:
+        return [("g", value) for value in sorted(options.g)]
+    name = "distance" if options.distance is not None else "insertion"
+    return [(name, getattr(options, name))]
+
+
+def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
+    """Solve, with a bar of progress for several values of g."""
+    from .solve import solve, solve_path
+
+    if options.g is None:
+        name, value = _wanted(options)[0]
+        return [solve(options.alpha, **{name: value}, settings=settings)]
+    if len(options.g) == 1:
+        return solve_path(options.alpha, options.g, settings)
+    from tqdm import tqdm
+
+    with tqdm(total=len(options.g), desc=f"alpha = {options.alpha:g}", unit="conf") as bar:
+
+        def report(record: Record) -> None:
+            if _is_reached(record):
+                bar.set_postfix_str(f"g = {record.energy_release_rate:.4g}")
+            bar.update()
+
+        return solve_path(options.alpha, options.g, settings, report)
+
+
+def _is_reached(record: Record) -> bool:
+    return math.isfinite(record.energy_release_rate)
+
+
+def _write(text: str) -> None:
+    sys.stdout.write(text + "\n")
+
+
+def _table(records: Sequence[Record], wanted: Sequence[tuple[str, float]]) -> str:
+    """Return the records as lines of aligned columns, numbers to their right ends."""
+    head = ("g", "delta/R_w", "A", "B", "|J-2F_h|/J", "time [s]", "outcome")
+    rows = [head]
+    for record, (name, value) in zip(records, wanted, strict=True):
+        outcome = record.outcome.name.lower().replace("_", " ")
+        if not _is_reached(record):
+            rows.append((f"{value:.4g}" if name == "g" else "-", *5 * ("-",), outcome))
+            continue
+        rows.append(
+            (
+                f"{record.energy_release_rate:.4g}",
+                f"{record.distance:.4f}",
+                f"{record.arc:.4f}",
+                f"{record.normal_load:.4f}",
+                f"{record.force_mismatch:.1e}",
+                f"{record.wall_time:.1f}",
+                outcome,
+            )
+        )
+    widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
+    return "\n".join(
+        "  ".join([*(cell.rjust(w) for cell, w in zip(row[:-1], widths, strict=False)), row[-1]])
+        for row in rows
+    )
+
+
+def _remark(record: Record, wanted: tuple[str, float]) -> None:
+    """Say on the error stream what is wrong with a configuration and what to do about it."""
+    name, value = wanted
+    outcome, remarks = record.outcome, []
+    if outcome.remedy:
+        reason = f" ({record.reason})" if record.reason else ""
+        remarks.append(f"{outcome.meaning}{reason}; {outcome.remedy}")
+    J = record.energy_release_rate
+    if name == "g" and _is_reached(record) and abs(J / value - 1.0) > _CLOSE:
+        remarks.append(f"J/(mu R_w) = {J:.6g} is what the search ended with")
+    for remark in remarks:
+        sys.stderr.write(f"fe_training: {name} = {value:g}: {remark}\n")
+
+
+def _check_ranges(options: argparse.Namespace) -> None:
+    """Refuse numbers out of range before a bar of progress begins."""
+    from .solve import ALPHA_RANGE, G_RANGE
+
+    values = [("alpha", options.alpha, *ALPHA_RANGE)]
+    values += [("g", value, *G_RANGE) for value in options.g or []]
+    for name, value, low, high in values:
+        if not low <= value <= high:
+            raise InputError(f"{name} = {value:g} is out of range; give {low:g} to {high:g}.")
+
+
+def _check_files(options: argparse.Namespace) -> None:
+    """Refuse, before anything is solved, files that could not be written afterwards."""
+    for file in (options.json, options.plot):
+        if file is None:
+            continue
+        folder = Path(file).parent
+        if Path(file).is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+            raise InputError(f"{file} cannot be written; choose a file in an existing folder.")
+    if options.plot and Path(options.plot).suffix.lower() not in _PICTURES:
+        raise InputError(f"{options.plot} has no picture's ending; choose .png, .pdf or .svg.")
+    if options.plot:
+        from .plots import _require_matplotlib
+
+        _require_matplotlib()
+
+
+def _write_json(
+    options: argparse.Namespace, records: Sequence[Record], wanted: Sequence[tuple[str, float]]
+) -> None:
+    from surrogate import __version__
+
+    content = {
+        "wirecut": __version__,
+        "units": "lengths in R_w, stresses in mu, forces per thickness in mu R_w, angles in rad",
+        "resolution": options.resolution,
+        "configurations": [
+            {
+                "wanted": {name: value},
+                "reached": _is_reached(record),
+                **{field.name: _plain(getattr(record, field.name)) for field in fields(record)},
+                "arc": _plain(record.arc),
+                "normal_load": _plain(record.normal_load),
+                "force_mismatch": _plain(record.force_mismatch),
+            }
+            for record, (name, value) in zip(records, wanted, strict=True)
+        ],
+    }
+    try:
+        Path(options.json).write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
+    except OSError as error:
+        raise InputError(f"{options.json} cannot be written ({error.strerror}).") from None
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON knows: lists for arrays, names for outcomes, null for nan."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return getattr(value, "name", value)
+
+
+def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
+    """Draw the configuration of the largest g, J against distance, and the stress ahead."""
+    reached = [record for record in records if _is_reached(record)]
+    if not reached:
+        sys.stderr.write(f"fe_training: nothing was reached, {file} is not drawn\n")
+        return
+    from matplotlib.figure import Figure
+
+    from .path import PathStalledError
+    from .plots import (
+        SINGLE_COLUMN,
+        plot_configuration,
+        plot_energy_release_rate,
+        plot_stress_ahead,
+    )
+
+    figure = Figure(figsize=(SINGLE_COLUMN, 2.5 * SINGLE_COLUMN), layout="constrained")
+    places = figure.subplots(3, 1, height_ratios=[1.2, 0.8, 0.8])
+    with suppress(PathStalledError):
+        ax = plot_configuration(*_again(reached[-1], settings), places[0])
+        chosen = rf"$\alpha$ = {reached[-1].alpha:g}, $g$ = {reached[-1].energy_release_rate:.3g}"
+        ax.set_title(f"{chosen}; {ax.get_title()}", fontsize=ax.title.get_fontsize(), pad=3)
+    plot_energy_release_rate(reached, places[1])
+    plot_stress_ahead(reached, places[2])
+    try:
+        figure.savefig(file, dpi=300)
+    except OSError as error:
+        raise InputError(f"{file} cannot be written ({error.strerror}).") from None
+
+
+def _again(record: Record, settings: Settings) -> tuple[Body, State]:
+    """Solve the configuration of a record once more, for its displacements."""
+    from .equilibrium import Control
+    from .mesh import MeshSpec
+    from .path import Steps
+    from .solve import Cut, indentation_states
+
+    cut = Cut(record.alpha, MeshSpec(**record.mesh), settings)
+    if cut.spec.contact_start > 0:
+        return cut.body, cut.raised(record.insertion)
+    previous = None
+    for state in indentation_states(cut):
+        if state.centre[0] >= record.insertion:
+            break
+        previous = state
+    start = previous or state
+    return cut.body, cut.last(start, Control.POSITION, record.insertion, Steps(0.1, 0.2))
+
+
+__all__ = ["main"]
+
+if __name__ == "__main__":
+    sys.exit(main())
