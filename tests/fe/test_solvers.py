@@ -118,5 +118,5 @@ def test_a_missing_solver_is_named_with_a_remedy(name, monkeypatch):
 
 
 def test_an_unknown_solver_is_named_with_those_that_exist():
-    with pytest.raises(InputError, match="'mystery' is unknown.*superlu"):
+    with pytest.raises(InputError, match=r"'mystery' is unknown.*superlu"):
         solvers.make_solver("mystery")
