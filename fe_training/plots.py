@@ -41,6 +41,8 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 #: Pressure peak in the picture of a configuration [R_w]: the normals stay inside the wire.
 _LONGEST_NORMAL = 0.6
 _MOST_NORMALS = 28
+#: Curves that can be told apart, and named above one column.
+_MOST_CURVES = 6
 #: Edges of elements below this share of the window would only blacken it.
 _SMALLEST_DRAWN = 0.012
 #: Elements below this share of the window have no say in where the colours end.
@@ -288,7 +290,8 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     Parameters
     ----------
     records : sequence of Record
-        Configurations; those that were not reached are left out.
+        Configurations; those that were not reached are left out, and of more than six, six are
+        drawn that are spread evenly over the list in the order of alpha and distance.
     ax : matplotlib.axes.Axes, optional
         Where to draw; a new single-column figure by default.
 
@@ -320,8 +323,11 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     reached = _reached(records)
     ax = ax or _new_axes(0.8)
     _require_matplotlib()
+    reached.sort(key=lambda r: (r.alpha, r.distance))
+    chosen = np.linspace(0, len(reached) - 1, min(len(reached), _MOST_CURVES)).round()
+    reached = [reached[int(i)] for i in chosen]
     several = len({record.alpha for record in reached}) > 1
-    for i, record in enumerate(sorted(reached, key=lambda r: (r.alpha, r.distance))):
+    for i, record in enumerate(reached):
         colour, g = _COLOURS[i % len(_COLOURS)], record.energy_release_rate
         start = _NOTCH_REACH * float(record.mesh.get("notch_radius", 0.0))
         shown = (record.ahead_reference > start) & (record.ahead_stress > 0)
@@ -332,6 +338,7 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
         near = r[r <= max(0.3 * record.distance, 3.0 * r[0])] if len(r) else r
         ax.plot(near, np.sqrt(2.0 * g / (np.pi * near)), "--", color=colour, lw=0.7)
         if record.alpha == 2.0:
+            near = r[r <= g]  # finite strain rules up to about J/mu
             ax.plot(near, g / (np.pi * near), "-.", color=colour, lw=0.7)
     ax.plot([], [], "--", color=_GREY, lw=0.7, label=r"linear, $\sqrt{2J\mu/(\pi r)}$")
     if any(record.alpha == 2.0 for record in reached):

@@ -142,6 +142,26 @@ def test_the_neo_hookean_field_is_drawn_for_alpha_2_only(ax):
     assert y == pytest.approx(1.0 / (np.pi * x))
 
 
+def test_of_many_configurations_six_are_drawn_with_both_ends(ax):
+    r = np.geomspace(0.01, 10.0, 5)
+    records = [
+        Record(
+            5.0,
+            Outcome.CONVERGED,
+            energy_release_rate=1.0 / delta,
+            distance=delta,
+            ahead_reference=r,
+            ahead_stress=1.0 / r,
+        )
+        for delta in range(20, 1, -1)
+    ]
+    plot_stress_ahead(records, ax)
+    labels = [line.get_label() for line in ax.lines if line.get_zorder() == 3]
+    assert len(labels) == 6
+    assert "= 2, " in labels[0]
+    assert "= 20, " in labels[-1]
+
+
 @pytest.mark.parametrize("kind", ["configuration", "rate", "stress"])
 def test_new_figures_fit_a_column_and_nothing_overlaps(kind, cut, state, record):
     plt = pytest.importorskip("matplotlib.pyplot")
