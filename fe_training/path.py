@@ -154,7 +154,7 @@ def land(
     Raises
     ------
     PathStalledError
-        If an equilibrium on the way is not found.
+        If an equilibrium on the way is not found, or the target is not met in twelve steps.
     """
     miss = [(abs(np.log(m / target)), x, np.log(m)) for x, m in known]
     (_, x0, y0), (_, x1, y1) = sorted(miss)[:2]
@@ -167,5 +167,5 @@ def land(
         state = found
         x1, y1, x0, y0 = x0, y0, x, np.log(measure(state))
         if abs(y0 - goal) < tolerance:
-            break
-    return state
+            return state
+    raise PathStalledError(state, control, x, NewtonOutcome.STALLED)

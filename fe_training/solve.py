@@ -296,7 +296,8 @@ def _far_field(alpha: float, g: float, settings: Settings, ratio: float) -> tupl
             # J falls about like 1/distance: where the wire should be
             wanted = depth * (J / g) ** 0.9
             if abs(wanted - depth) < 0.5 * _WINDOW:
-                slope = [(-depth, J), (-wanted, J * (depth / wanted) ** (1 / 0.9))]
+                # a second, estimated point well away from the one wanted: only its slope is used
+                slope = [(-depth, J), (-2.0 * depth, J * 0.5 ** (1 / 0.9))]
                 state = path.land(
                     cut.body,
                     state,
