@@ -14,7 +14,7 @@ from . import kernels
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-#: Quadrature exact for polynomials of this degree; more changes no result beyond the mesh error.
+#: Quadrature exact for polynomials of this degree.
 _DEGREE = 4
 #: Displacement and pressure elements.  Crouzeix-Raviart (quadratics with a bubble, discontinuous
 #: linear pressure) keeps the area of every element; Taylor-Hood keeps it on patches only, and

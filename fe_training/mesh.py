@@ -3,7 +3,7 @@
 The reference body is the half disc ``Y >= 0`` of radius L.  The crack runs along ``Y = 0, X < 0``
 and ends in a notch of small radius r0 about the origin instead of a mathematical point: every
 element then has a finite stretch, and the limit of a sharp crack is approached as r0 falls (the
-error is of order r0, see the verification studies).  Rings grow geometrically, so a body of
+error is of order r0).  Rings grow geometrically, so a body of
 1e7 wire radii costs little more than one of 1e3.
 """
 

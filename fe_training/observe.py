@@ -126,9 +126,9 @@ def stress_ahead(body: Body, state: State, reach: float = 100.0) -> StressAhead:
     )
 
 
-def largest_stretch(body: Body, state: State) -> float:
-    """Return the largest principal stretch over the quadrature points."""
+def principal_stretch(body: Body, state: State) -> Array:
+    """Return the larger principal stretch at the quadrature points, shape (elements, points)."""
     H = body.displacement_gradient(state.u)
     s = np.hypot(2.0 + H[0, 0] + H[1, 1], H[1, 0] - H[0, 1])
     d = np.hypot(H[0, 0] - H[1, 1], H[1, 0] + H[0, 1])
-    return float(0.5 * (s + d).max())
+    return np.asarray(0.5 * (s + d))

@@ -18,7 +18,7 @@ from surrogate.equations import far_field_energy_release_rate
 from .body import Body
 from .equilibrium import Control, State, control_value
 from .errors import InputError, MissingExtraError
-from .observe import contact_arc
+from .observe import contact_arc, principal_stretch
 from .record import Outcome, Record
 from .reference import far_field_wedge
 
@@ -142,10 +142,7 @@ def _window(body: Body, state: State) -> tuple[Array, Array]:
 
 def _element_stretch(body: Body, state: State) -> Array:
     """Return the largest principal stretch of each element, the mean over its points [-]."""
-    H = body.displacement_gradient(state.u)
-    s = np.hypot(2.0 + H[0, 0] + H[1, 1], H[1, 0] - H[0, 1])
-    d = np.hypot(H[0, 0] - H[1, 1], H[1, 0] + H[0, 1])
-    mean: Array = np.exp(np.log(0.5 * (s + d)).mean(axis=1))
+    mean: Array = np.exp(np.log(principal_stretch(body, state)).mean(axis=1))
     return mean
 
 

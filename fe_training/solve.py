@@ -42,8 +42,8 @@ _TRIES = 4
 _FAR_FIELD_SPACING = 0.5
 #: Below this g the wire is raised afresh without trying the indentation branch.
 _SURELY_FAR = 0.3
-#: Share of B that a truncation at L takes away is below this times sqrt(g R_w / L); measured by
-#: the verification study.
+#: Share of B that a truncation at L takes away is taken to be this times sqrt(g R_w / L); assumed,
+#: not yet measured with this engine.
 TRUNCATION_FACTOR = 0.5
 
 
@@ -158,7 +158,7 @@ class Cut:
             residual=state.residual,
             iterations=state.iterations,
             min_determinant=path.least_determinant(body, state, body.beyond_notch),
-            max_stretch=observe.largest_stretch(body, state),
+            max_stretch=float(observe.principal_stretch(body, state).max()),
             touches_plane=bool(state.active.plane.any()),
             unknowns=int(body.free.sum()),
             mesh=self.spec.as_dict(),
