@@ -11,9 +11,11 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
-from .errors import InputError, WirecutError
+from surrogate.command import OneLineParser, run_command
+
+from .errors import InputError
 
 if TYPE_CHECKING:
     from .body import Body
@@ -78,37 +80,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     >>> main(["solve", "--alpha", "5"]) == 2  # neither g nor distance nor insertion
     True
     """
-    try:
-        try:
-            options = _parser().parse_args(arguments)
-            return _solve(options)
-        finally:
-            sys.stdout.flush()  # here, where a reader that left early does no harm
-    except WirecutError as error:
-        return _refused(str(error))
-    except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        if package not in _EXTRA:
-            raise
-        return _refused(f"{package} is not installed; get it with: pip install 'wirecut[train]'")
-    except BrokenPipeError:  # the reader, such as head, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-    except KeyboardInterrupt:
-        sys.stderr.write("\nfe_training: interrupted\n")
-        return 130
-
-
-def _refused(reason: str) -> int:
-    sys.stderr.write(f"fe_training: {' '.join(reason.split())}\n")
-    return 2
-
-
-class _Parser(argparse.ArgumentParser):
-    """A parser whose complaints take one line."""
-
-    def error(self, message: str) -> NoReturn:
-        raise InputError(f"{message}; see '{self.prog} --help'.")
+    return run_command(
+        "fe_training", lambda: _solve(_parser().parse_args(arguments)), _EXTRA, "wirecut[train]"
+    )
 
 
 def _number(text: str) -> float:
@@ -127,7 +101,7 @@ def _parser() -> argparse.ArgumentParser:
         "epilog": _EXAMPLE,
         "allow_abbrev": False,
     }
-    parser = _Parser(prog=_NAME, description=_OVERVIEW, **shape)
+    parser = OneLineParser(prog=_NAME, description=_OVERVIEW, **shape)
     commands = parser.add_subparsers(dest="command", required=True, metavar="command")
     solve = commands.add_parser(
         "solve", help="solve one configuration or a path of them", description=_SOLVE, **shape

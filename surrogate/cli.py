@@ -9,11 +9,12 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
-from typing import Any, NoReturn
+from typing import Any
 
 from surrogate import __version__, report
+from surrogate.command import OneLineParser, run_command
 from surrogate.data import Material, read_material, read_measurements
-from surrogate.errors import InputError, WirecutError
+from surrogate.errors import InputError
 from surrogate.force import cutting_force
 from surrogate.identification import identify
 from surrogate.paths import model_file
@@ -106,22 +107,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     1         2.92   2             2         0         0     yes
     0
     """
-    try:
-        try:
-            options = _parser().parse_args(arguments)
-            options.run(options)
-        finally:
-            sys.stdout.flush()  # here, where a reader that left early does no harm
-    except WirecutError as error:
-        print(f"wirecut: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:  # the reader, such as head, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return run_command("wirecut", lambda: _run(arguments))
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    options = _parser().parse_args(arguments)
+    options.run(options)
     return 0
 
 
-class _Parser(argparse.ArgumentParser):
-    """A parser whose complaints take one line."""
+class _Parser(OneLineParser):
+    """The parser of one command, with its description and examples."""
 
     def __init__(self, **options: Any) -> None:
         name = options["prog"].split()[-1]
@@ -132,9 +128,6 @@ class _Parser(argparse.ArgumentParser):
             allow_abbrev=False,
             **options,
         )
-
-    def error(self, message: str) -> NoReturn:
-        raise InputError(f"{message}; see '{self.prog} --help'.")
 
 
 def _parser() -> argparse.ArgumentParser:

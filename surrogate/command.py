@@ -1,0 +1,76 @@
+"""What the command lines have in common: complaints in one line, exit codes, early readers."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Collection
+from typing import NoReturn
+
+from surrogate.errors import InputError, WirecutError
+
+__all__ = ["OneLineParser", "run_command"]
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """A parser whose complaints take one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the arguments."""
+        raise InputError(f"{message}; see '{self.prog} --help'.")
+
+
+def run_command(
+    name: str,
+    action: Callable[[], int],
+    packages: Collection[str] = (),
+    install: str = "",
+) -> int:
+    """Run a command and return its exit code.
+
+    Parameters
+    ----------
+    name : str
+        Begins every complaint.
+    action : callable
+        Does the work and returns the exit code.
+    packages : collection of str
+        Packages that may be missing; how to get them is then said in one line.
+    install : str
+        What to give to ``pip install`` for them.
+
+    Returns
+    -------
+    int
+        That of the action, or 2 after bad input or where a package is missing, with the reason in
+        one line on the standard error stream, or 130 after an interruption.
+
+    Examples
+    --------
+    >>> run_command("wirecut", lambda: 0)
+    0
+    """
+    try:
+        try:
+            return action()
+        finally:
+            sys.stdout.flush()  # here, where a reader that left early does no harm
+    except WirecutError as error:
+        return _refused(name, str(error))
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package not in packages:
+            raise
+        return _refused(name, f"{package} is not installed; get it with: pip install '{install}'")
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        sys.stderr.write(f"\n{name}: interrupted\n")
+        return 130
+
+
+def _refused(name: str, reason: str) -> int:
+    sys.stderr.write(f"{name}: {' '.join(reason.split())}\n")
+    return 2
