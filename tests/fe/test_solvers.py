@@ -102,6 +102,28 @@ def test_pardiso_is_told_to_keep_its_analysis(matrices, monkeypatch):
     assert phases == [12, 33, 22, 33, 22, 33]
 
 
+def test_mumps_keeps_its_analysis_and_solves_all_columns_at_once(matrices, monkeypatch):
+    if "mumps" not in solvers.available_solvers():
+        pytest.skip("python-mumps is not installed")
+    import mumps
+
+    done = []
+    for job in ("analyze", "factor", "solve"):
+        plain = getattr(mumps.Context, job)
+
+        def recorded(*args, plain=plain, job=job, **options):
+            done.append(job)
+            return plain(*args, **options)
+
+        monkeypatch.setattr(mumps.Context, job, recorded)
+    solver = solvers.make_solver("mumps")
+    right = np.ones((matrices[0].shape[0], 3))
+    for matrix in matrices:
+        solver.factorize(matrix)
+        solver.solve(right)
+    assert done == ["analyze", "factor", "solve", "factor", "solve", "factor", "solve"]
+
+
 def test_superlu_is_always_there_and_the_fastest_is_chosen(monkeypatch):
     assert "superlu" in solvers.available_solvers()
     assert solvers.make_solver().name == solvers.available_solvers()[0]
