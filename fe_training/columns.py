@@ -54,7 +54,8 @@ PROFILES = (
     "ahead_stress",
 )
 
-#: Points: one for each (alpha, g) of the design with a converged row, from both mesh levels.
+#: Points: one for each (alpha, g) of the design with a row, from both mesh levels; nan where the
+#: configuration was not reached.
 POINT_COLUMNS: dict[str, tuple[str, str]] = {
     "alpha": ("-", "strain-stiffening exponent"),
     "g": ("-", "J/(mu R_w), dimensionless toughness"),

@@ -7,7 +7,7 @@ import json
 import os
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from datetime import datetime, timezone
 from pathlib import Path
 from types import MappingProxyType
@@ -301,36 +301,33 @@ def _point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arr
     for one in design.configurations():
         if one.level != fine:
             continue
-        here = {level: values[level].get((one.alpha, one.target)) for level in (fine, coarse)}
-        level = fine if here[fine] is not None else coarse
-        chosen = here[level]
-        if chosen is None:
+        twin = replace(one, level=coarse)
+        here = [c for c in (one, twin) if c in index]
+        if not here:
             continue
-        i = index[Configuration(level, one.alpha, one.target)]
-        record, other = rows[i].record, here[coarse]
-        both = level == fine and other is not None
-        errors = np.full(3, np.nan) if other is None or not both else np.abs(other - chosen)
+        reached = [c for c in here if c in values[c.level]]
+        chosen = (reached or here)[0]
+        record = rows[index[chosen]].record
+        nothing = np.full(3, np.nan)
+        best = values[chosen.level].get(chosen, nothing)
+        other = values[coarse].get(twin, nothing) if chosen is one else nothing
+        errors = np.abs(other - best)
         point = {
             "alpha": one.alpha,
             "g": one.target,
-            "arc": chosen[0],
-            "normal_load": chosen[1],
-            "distance": chosen[2],
+            "arc": best[0],
+            "normal_load": best[1],
+            "distance": best[2],
             "arc_error": errors[0],
-            "normal_load_error": errors[1] / chosen[1],
-            "distance_error": errors[2] / chosen[2],
+            "normal_load_error": errors[1] / best[1],
+            "distance_error": errors[2] / best[2],
             "truncation_error": record.truncation_error,
             "force_mismatch": record.force_mismatch,
-            "support_spread": record.support_spread,
-            "row": i,
+            "support_spread": record.support_spread if reached else np.nan,
+            "row": index[chosen],
         }
-        reason = _doubt(point, record)
+        reason = _doubt(point, record) if reached else record.outcome.meaning
         points.append({**point, "use": not reason, "reason": reason})
-    if not points:
-        raise InputError(
-            "no configuration was reached, so there is no data set; see the reasons of the failed "
-            "rows in the store, and refine the levels of the design."
-        )
     return {name: np.array([point[name] for point in points]) for name in POINT_COLUMNS}
 
 
@@ -338,7 +335,10 @@ def _doubt(point: Mapping[str, Any], record: Record) -> str:
     """Return why a point is not to be used, or nothing."""
     off = abs(record.energy_release_rate / point["g"] - 1.0)
     reasons = [
-        (record.outcome is not Outcome.CONVERGED, record.outcome.meaning),
+        (
+            record.outcome is not Outcome.CONVERGED and record.within_evidence,
+            record.outcome.meaning,
+        ),
         (
             not record.within_evidence,
             f"|J - 2 F_h|/J = {record.force_mismatch:.1e} is above its bound",
@@ -363,12 +363,12 @@ def _doubt(point: Mapping[str, Any], record: Record) -> str:
 
 def _at_targets(
     rows: Iterable[Row], level: str, design: CampaignDesign
-) -> dict[tuple[float, float], Floats]:
-    """Return A, B and delta of one level, moved from each row's J to its target.
+) -> dict[Configuration, Floats]:
+    """Return A, B and delta of what one level reached, moved from each row's J to its target.
 
     The slopes with respect to log J come from the neighbouring rows of the same alpha.
     """
-    found: dict[tuple[float, float], Floats] = {}
+    found: dict[Configuration, Floats] = {}
     for alpha in design.alpha:
         here = [
             row
@@ -385,8 +385,7 @@ def _at_targets(
         if len(here) > 1 and np.all(np.diff(log_j) > 0.0):
             slopes = np.gradient(values, log_j, axis=0)
         for row, x, value, slope in zip(here, log_j, values, slopes, strict=True):
-            target = row.configuration.target
-            found[alpha, target] = value + slope * (np.log(target) - x)
+            found[row.configuration] = value + slope * (np.log(row.configuration.target) - x)
     return found
 
 

@@ -1,0 +1,75 @@
+"""An engine that answers at once with smooth made-up numbers, and a driver of campaigns with it.
+
+As a program: ``fake_engine.py DESIGN STORE JOBS [SCHEDULER]``; the environment variable
+FAKE_SECONDS is the time of each configuration, FAKE_LOG a file that each one adds a line to.
+"""
+
+import math
+import os
+import sys
+import time
+
+import numpy as np
+
+from fe_training.campaign import Workers, plan, run_campaign
+from fe_training.design import read_design
+from fe_training.record import Outcome, Record
+from fe_training.store import Store
+
+
+def record(alpha, g, sectors=24, **changed):
+    """Return a made-up record whose values depend a little on the mesh."""
+    mesh = 1.0 + 0.5 / sectors**2
+    points = 40 + round(100 * g) % 200
+    values = {
+        "alpha": alpha,
+        "outcome": Outcome.CONVERGED,
+        "energy_release_rate": g * (1 + 1e-5 * math.sin(1e3 * g)),
+        "distance": (1.0 + 1.0 / (1.0 + alpha * g)) * mesh,
+        "insertion": math.log(g),
+        "vertical_force": (2.0 + 0.3 * g) * mesh,
+        "horizontal_force": 0.5 * g,
+        "theta_1": 0.5,
+        "theta_2": 2.0 + 0.01 * math.tanh(g),
+        "energy_release_rate_across": (g, g * (1 + 1e-6)),
+        "residual": 1e-11,
+        "iterations": 5,
+        "touches_plane": g > 1.6,
+        "mesh": {"sectors": sectors, "notch_radius": 5e-4},
+        "solver": "made-up",
+        "truncation_error": 1e-4,
+        "wall_time": 2.0,
+        "pressure_angle": np.linspace(0.5, 2.0, points),
+        "pressure": np.sin(np.linspace(0.0, np.pi, points)) * alpha,
+        "ahead_reference": np.geomspace(1e-3, 1.0, 30),
+        "ahead_deformed": np.geomspace(1e-3, 1.0, 30) * 1.5,
+        "ahead_stress": np.geomspace(1.0, 1e-3, 30),
+    }
+    return Record(**{**values, **changed})
+
+
+def solve_path(alpha, targets, settings, report):
+    """Answer in the place of the engine's `solve_path`."""
+    for g in sorted(targets):
+        time.sleep(float(os.environ.get("FAKE_SECONDS", "0")))
+        report(record(alpha, g, settings.sectors))
+        if "FAKE_LOG" in os.environ:
+            line = f"{alpha:g} {g:g} {settings.sectors}\n".encode()
+            log = os.open(os.environ["FAKE_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+            os.write(log, line)
+            os.close(log)
+    return []
+
+
+def run(design, folder, workers=None, solve=solve_path, retry=True, progress=False):
+    """Run a campaign with made-up numbers and return its rows."""
+    store = Store(folder)
+    with store.opened(design):
+        todo = plan(design, store, design.configurations(), retry)
+        run_campaign(design, store, todo, workers, progress=progress, solve=solve)
+        return store.rows(design.configurations())
+
+
+if __name__ == "__main__":
+    file, place, jobs, *scheduler = sys.argv[1:]
+    run(read_design(file), place, Workers(int(jobs), *scheduler), progress=True)

@@ -1,0 +1,155 @@
+"""Designs: what is read, what is refused, what the hash sees, and how tasks are made."""
+
+import json
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from fe_training.design import STRATEGIES, CampaignDesign, read_design
+from fe_training.errors import InputError
+from fe_training.solve import Settings
+from surrogate.paths import model_file
+
+from .conftest import SMALL
+
+
+@pytest.fixture
+def full():
+    return read_design(model_file("campaign.toml"))
+
+
+def test_the_full_design_holds_what_the_paper_studies(full):
+    assert {2.0, 5.0, 9.0} <= set(full.alpha)
+    assert len(full.alpha) >= 9
+    assert (full.alpha[0], full.alpha[-1]) == (2.0, 9.0)
+    for alpha in full.alpha:
+        g = full.g(alpha)
+        assert len(g) >= 40
+        assert (g[0], g[-1]) == (2.5e-3, 100.0)
+
+
+def test_alpha_nodes_are_clustered_at_the_ends(full):
+    gaps = np.diff(full.alpha)
+    middle = np.argmax(gaps)
+    assert 0 < middle < len(gaps) - 1
+    assert max(gaps[0], gaps[-1]) < 0.3 * gaps[middle]
+
+
+@pytest.mark.parametrize(("alpha", "touch"), [(2.0, 1.6), (5.0, 20.0)])
+def test_g_nodes_are_densest_at_the_touch(full, alpha, touch):
+    g = np.array(full.g(alpha))
+    densest = np.argmin(np.diff(np.log(g)))
+    assert g[densest] == pytest.approx(touch, rel=0.3)
+
+
+def test_the_quick_design_is_a_small_one_of_the_same_exponents():
+    quick = read_design(model_file("campaign-quick.toml"))
+    assert quick.alpha == (2.0, 5.0, 9.0)
+    assert len(quick.configurations()) == 48
+
+
+def test_the_hash_sees_numbers_not_formatting(small, tmp_path):
+    other = tmp_path / "same.toml"
+    text = SMALL.replace("alpha = [2, 5]", "# nothing\nalpha = [\n 2.0, 5.00]", 1)
+    other.write_text(text.replace("highest = 10", "highest = 1e1"))
+    assert read_design(other).hash == small.hash
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("[2, 5]", "[2, 5.01]"),
+        ("count = 6", "count = 7"),
+        ("peak = 2", "peak = 2.5"),
+        ("path_from = 0.7", "path_from = 0.8"),
+        ("sectors = 16", "sectors = 17"),
+        ("contact_spacing = 0.2", "contact_spacing = 0.2\nbulk = 2.0"),
+        ("levels.coarse", "levels.rough"),
+    ],
+)
+def test_the_hash_sees_every_number(small, tmp_path, old, new):
+    other = tmp_path / "other.toml"
+    other.write_text(SMALL.replace(old, new, 1))
+    assert read_design(other).hash != small.hash
+
+
+def test_a_design_comes_back_from_its_numbers(small):
+    numbers = json.loads(json.dumps(small.as_dict()))
+    assert CampaignDesign.from_dict(numbers) == small
+
+
+BAD = [
+    ("wirecut-campaign-1", "wirecut-campaign-9", "schema"),
+    ("alpha = [2, 5]", "", "alpha is missing"),
+    ("alpha = [2, 5]", "alpha = 2", "list of rising numbers"),
+    ("alpha = [2, 5]", "alpha = [5, 2]", "does not rise"),
+    ("alpha = [2, 5]", "alpha = [2, 500]", "1 to 20"),
+    ("alpha = [2, 5]", "alpha = [2, nan]", "1 to 20"),
+    ("lowest = 0.1", "lowest = 20", "not above g.lowest"),
+    ("lowest = 0.1", 'lowest = "low"', "a number from"),
+    ("lowest = 0.1", "lowest = true", "a number from"),
+    ("count = 6", "count = 6.5", "whole number"),
+    ("count = 6", "count = 9000", "coincide"),
+    ("touch = [1.6, 100]", "touch = [1.6]", "one for each alpha"),
+    ("peak = 2", "peek = 2", "peak is missing"),
+    ("width = 0.5", "width = 0.5\ncolour = 1", "g.denser.colour is unknown"),
+    ("sectors = 16", "sektors = 16", "levels.less-coarse.sektors is unknown"),
+    ("sectors = 16", "sectors = 16.0", "sectors is 16.0"),
+    ("sectors = 16", "sectors = -16", "from 0 on"),
+    ("sectors = 16", "sectors = 12", "not finer"),
+    ("levels.coarse", 'levels."../x"', "names a level"),
+    ("[levels.less-coarse]", "[levels.coarse.deeper]", "deeper is unknown"),
+    ("[g]", "[g", "no TOML"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), BAD)
+def test_an_unusable_design_is_refused_in_words(tmp_path, old, new, words):
+    file = tmp_path / "bad.toml"
+    assert old in SMALL
+    file.write_text(SMALL.replace(old, new, 1))
+    with pytest.raises(InputError, match=r"bad\.toml.*") as caught:
+        read_design(file)
+    assert words in str(caught.value)
+
+
+def test_one_level_is_refused(tmp_path):
+    file = tmp_path / "bad.toml"
+    file.write_text(SMALL[: SMALL.index("[levels.less-coarse]")])
+    with pytest.raises(InputError, match="give two"):
+        read_design(file)
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        read_design(tmp_path / "none.toml")
+
+
+def test_tasks_are_paths_first_and_hold_every_configuration_once(full):
+    wanted = full.configurations()
+    tasks = full.tasks((one, 0) for one in wanted)
+    assert sorted(one for task in tasks for one in task.configurations) == sorted(wanted)
+    on_path = [task.configurations[0].target >= full.path_from for task in tasks]
+    assert on_path == sorted(on_path, reverse=True)
+    assert sum(on_path) == len(full.alpha) * len(full.levels)
+    for task in tasks:
+        assert len({(one.alpha, one.level) for one in task.configurations}) == 1
+        assert all(a.target < b.target for a, b in pairwise(task.configurations))
+        if task.configurations[0].target < full.path_from:
+            assert len(task.configurations) == 1
+
+
+def test_attempts_are_tasks_of_their_own(small):
+    path = [one for one in small.configurations() if one.target >= small.path_from][:4]
+    tasks = small.tasks([(path[0], 0), (path[1], 1), (path[2], 0), (path[3], 1)])
+    assert [(task.attempt, len(task.configurations)) for task in tasks] == [(0, 2), (1, 2)]
+
+
+def test_every_strategy_is_finer_than_the_one_before():
+    tried = [strategy(Settings()) for strategy in STRATEGIES]
+    assert tried[0] == Settings()
+    for coarse, fine in pairwise(tried):
+        assert fine.sectors > coarse.sectors
+        assert fine.contact_spacing < coarse.contact_spacing
+        assert fine.notch_radius < coarse.notch_radius
