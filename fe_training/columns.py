@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["POINT_COLUMNS", "PROFILES", "ROW_COLUMNS"]
+__all__ = ["INNER", "POINT_COLUMNS", "PROFILES", "ROW_COLUMNS"]
 
 #: Rows: one for each configuration of the design that was solved or failed. The fields of
 #: `fe_training.record.Record` first, then what the campaign adds.
@@ -45,14 +45,18 @@ ROW_COLUMNS: dict[str, tuple[str, str]] = {
     "software": ("-", "index into the list of software in the file's attributes"),
 }
 
-#: The columns of the rows that are profiles.
-PROFILES = (
-    "pressure_angle",
-    "pressure",
-    "ahead_reference",
-    "ahead_deformed",
-    "ahead_stress",
-)
+#: The columns of the rows that hold several numbers an entry, with what counts these.
+INNER: dict[str, str] = {
+    "energy_release_rate_across": "support",
+    "pressure_angle": "arc",
+    "pressure": "arc",
+    "ahead_reference": "ahead",
+    "ahead_deformed": "ahead",
+    "ahead_stress": "ahead",
+}
+
+#: Those of them that are profiles.
+PROFILES = tuple(name for name, inner in INNER.items() if inner != "support")
 
 #: Points: one for each (alpha, g) of the design with a row, from both mesh levels; nan where the
 #: configuration was not reached.

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.paths import file_name, model_file
 
-from .columns import POINT_COLUMNS, PROFILES, ROW_COLUMNS
+from .columns import INNER, POINT_COLUMNS, PROFILES, ROW_COLUMNS
 from .design import CampaignDesign, Configuration
 from .errors import InputError, MissingExtraError
 from .record import Outcome, Record
@@ -157,14 +157,10 @@ class Campaign:
         variables = {}
         for dimension, table in (("row", self.rows), ("point", self.points)):
             for name, values in table.columns.items():
-                inner = {} if values.ndim == 1 else {_inner_dimension(name): None}
+                inner = () if values.ndim == 1 else (INNER[name],)
                 attributes = {"units": table.units[name], "description": table.descriptions[name]}
                 variables[f"{dimension}_{name}"] = ((dimension, *inner), values, attributes)
         return xarray.Dataset(variables, attrs=dict(self.provenance))
-
-
-def _inner_dimension(name: str) -> str:
-    return "profile" if name in PROFILES else "support"
 
 
 def _missing(package: str) -> MissingExtraError:
