@@ -207,44 +207,51 @@ def run_task(
     """
     _use_one_thread()
     store = Store(folder)
-    earlier = {one: store.read(one) for one in task.configurations}
-    left = [one for one, row in earlier.items() if row is None or row.tried <= task.attempt]
+    rows = {one: store.read(one) for one in design.together(task.configurations[0])}
+    # Those of a path that were finished before an interruption are passed once more, so that
+    # every row comes out as if there had been none.
+    passed = [
+        one
+        for one, row in rows.items()
+        if one in task.configurations or (row is not None and row.tried > task.attempt)
+    ]
+    left = {one for one in passed if (row := rows[one]) is None or row.tried <= task.attempt}
     if not left:
         return
 
     def keep(one: Configuration, record: Record) -> None:
-        row = Row(one, task.attempt, task.attempt + 1, software(), record)
-        store.write(row.better(earlier[one]))
-        left.remove(one)
+        passed.remove(one)
+        if one in left:
+            row = Row(one, task.attempt, task.attempt + 1, software(), record)
+            store.write(row.better(rows[one]))
         if driver is not None and driver not in (os.getpid(), os.getppid()):
             os._exit(1)  # whoever started this is gone, and may be running again
 
-    alpha, level = left[0].alpha, left[0].level
-    settings = design.settings(level, task.attempt)
+    alpha = passed[0].alpha
     reason = "the engine left this value out"
     try:
         solve(
             alpha,
-            [one.target for one in left],
-            settings,
-            lambda record: keep(_asked_for(record, left), record),
+            [one.target for one in passed],
+            design.settings(passed[0].level, task.attempt),
+            lambda record: keep(_asked_for(record, passed), record),
         )
     except _FATAL:
         raise
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-    for one in list(left):
+    for one in list(passed):
         keep(one, Record(alpha=alpha, outcome=Outcome.STALLED, reason=reason))
 
 
-def _asked_for(record: Record, left: Sequence[Configuration]) -> Configuration:
+def _asked_for(record: Record, passed: Sequence[Configuration]) -> Configuration:
     """Return the configuration that a record answers."""
     target = getattr(record, "target", math.nan)
     if not math.isfinite(target):
         target = record.energy_release_rate
     if not math.isfinite(target):
-        return left[0]
-    return min(left, key=lambda one: abs(math.log(one.target / target)))
+        return passed[0]
+    return min(passed, key=lambda one: abs(math.log(one.target / target)))
 
 
 def _use_one_thread() -> None:

@@ -170,6 +170,16 @@ class CampaignDesign:
             for g in self.g(alpha)
         ]
 
+    def together(self, one: Configuration) -> list[Configuration]:
+        """Return the configurations that are solved along one path with a given one, it included.
+
+        They are those of the same level and alpha from `path_from` on; below, it is alone.
+        """
+        if one.target < self.path_from:
+            return [one]
+        path = [Configuration(one.level, one.alpha, g) for g in self.g(one.alpha)]
+        return [other for other in path if other.target >= self.path_from]
+
     def settings(self, level: str, attempt: int) -> Settings:
         """Return the settings of a level at an attempt."""
         return STRATEGIES[attempt](self.levels[level])
