@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow check format clean
+.PHONY: demo test test-slow campaign-quick check format clean
 .DEFAULT_GOAL := demo
 
 $(BIN)/python:
@@ -25,6 +25,9 @@ test: $(VENV)/.dev-installed
 
 test-slow: $(VENV)/.dev-installed
 	$(BIN)/python -m pytest -m slow
+
+campaign-quick: $(VENV)/.dev-installed
+	$(BIN)/regen-surrogate --quick --jobs 2
 
 check: $(VENV)/.dev-installed
 	$(BIN)/ruff check .

@@ -330,6 +330,8 @@ def _point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arr
 def _doubt(point: Mapping[str, Any], record: Record) -> str:
     """Return why a point is not to be used, or nothing."""
     off = abs(record.energy_release_rate / point["g"] - 1.0)
+    load_error, arc_error = point["normal_load_error"], point["arc_error"]
+    truncation = point["truncation_error"]
     reasons = [
         (
             record.outcome is not Outcome.CONVERGED and record.within_evidence,
@@ -337,21 +339,15 @@ def _doubt(point: Mapping[str, Any], record: Record) -> str:
         ),
         (
             not record.within_evidence,
-            f"|J - 2 F_h|/J = {record.force_mismatch:.1e} is above its bound",
+            f"|J - 2 F_h|/J is above its bound ({record.force_mismatch:.1e})",
         ),
-        (off > TARGET_BOUND, f"J is {100 * off:.2g} % off its target"),
-        (np.isnan(point["normal_load_error"]), "only one mesh level was reached"),
+        (off > TARGET_BOUND, f"J is off its target ({100 * off:.2g} %)"),
+        (np.isnan(load_error), "only one mesh level was reached"),
+        (load_error > LOAD_BOUND, f"B differs between the meshes ({100 * load_error:.2g} %)"),
+        (arc_error > ARC_BOUND, f"A differs between the meshes ({arc_error:.2g})"),
         (
-            point["normal_load_error"] > LOAD_BOUND,
-            f"B differs by {100 * point['normal_load_error']:.2g} % between the mesh levels",
-        ),
-        (
-            point["arc_error"] > ARC_BOUND,
-            f"A differs by {point['arc_error']:.2g} between the mesh levels",
-        ),
-        (
-            not point["truncation_error"] <= TRUNCATION_BOUND,
-            f"truncation error {100 * point['truncation_error']:.2g} % of B",
+            not truncation <= TRUNCATION_BOUND,
+            f"B is truncated by the finite body ({100 * truncation:.2g} %)",
         ),
     ]
     return "; ".join(text for doubtful, text in reasons if doubtful)

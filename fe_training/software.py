@@ -32,7 +32,8 @@ def software() -> dict[str, str]:
     ['scikit-fem', 'scipy', 'wirecut']
     """
     found = {"wirecut": __version__, "commit": _commit()}
-    found |= {"python": platform.python_version(), "platform": platform.platform()}
+    found["python"] = platform.python_version()
+    found["platform"] = f"{platform.system()} {platform.machine()}"
     for package in _PACKAGES:
         try:
             found[package] = version(package)

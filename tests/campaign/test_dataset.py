@@ -138,13 +138,13 @@ FINE = 12  # index of the first row of the finer level
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
-        ({"horizontal_force": 0.06}, "|J - 2 F_h|/J = 2.0e-01"),
+        ({"horizontal_force": 0.06}, "|J - 2 F_h|/J is above its bound (2.0e-01)"),
         ({"outcome": Outcome.FOLDED}, Outcome.FOLDED.meaning),
-        ({"vertical_force": 2.1}, "B differs by"),
-        ({"theta_1": 0.6}, "A differs by"),
-        ({"truncation_error": 0.02}, "truncation error 2 %"),
-        ({"truncation_error": np.nan}, "truncation error nan %"),
-        ({"energy_release_rate": 0.105, "horizontal_force": 0.0525}, "% off its target"),
+        ({"vertical_force": 2.1}, "B differs between the meshes ("),
+        ({"theta_1": 0.6}, "A differs between the meshes ("),
+        ({"truncation_error": 0.02}, "finite body (2 %)"),
+        ({"truncation_error": np.nan}, "finite body (nan %)"),
+        ({"energy_release_rate": 0.105, "horizontal_force": 0.0525}, "J is off its target (5 %)"),
     ],
 )
 def test_doubtful_points_are_flagged_with_their_reason(small, rows, tmp_path, changed, words):

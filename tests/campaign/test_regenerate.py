@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from fe_training.campaign import Workers
 from fe_training.check import check_rows
 from fe_training.dataset import load_campaign, write_campaign
 from fe_training.design import read_design
+from fe_training.record import Outcome, Record
 from fe_training.regenerate import main
 from fe_training.store import Store
 from surrogate.paths import model_file
@@ -288,3 +290,52 @@ def test_the_quick_design_gives_points_of_every_kind(tmp_path, capsys):
     assert points["use"].sum() >= 12
     assert {2.0, 5.0, 9.0} == set(points["alpha"][points["use"]])
     assert points["g"][points["use"]].min() < 0.3 < 1.0 < points["g"][points["use"]].max()
+
+
+REPORT = [sys.executable, "-W", "error", "scripts/report-campaign"]
+
+
+def test_the_report_is_written_between_its_marks(small, tmp_path):
+    rows = run(small, tmp_path / "store")
+    rows[3] = replace(rows[3], record=Record(2.0, Outcome.STALLED, reason="no more"))
+    rows[20] = replace(rows[20], record=record(5.0, 1.0, truncation_error=0.02))
+    write_campaign(tmp_path / "campaign.h5", small, rows)
+    marks = "<!-- campaign report: begin -->\nold\n<!-- campaign report: end -->"
+    readme = tmp_path / "README.md"
+    readme.write_text(f"before\n{marks}\nafter\n")
+    options = [
+        "--data",
+        tmp_path / "campaign.h5",
+        "--readme",
+        readme,
+        "--figures",
+        tmp_path / "fig",
+    ]
+    for _ in range(2):  # the second run replaces what the first wrote
+        subprocess.run([*REPORT, *map(str, options)], cwd=ROOT, check=True)
+    text = readme.read_text()
+    assert text.startswith("before\n<!--")
+    assert text.endswith("-->\nafter\n")
+    assert "old" not in text
+    assert text.count("points (alpha, g) are within all bounds") == 1
+    assert f"| coarse | 1 | {Outcome.STALLED.meaning} |" in text
+    assert "| B is truncated by the finite body | 5 | 1 |" in text
+    for picture in re.findall(r"\]\((fig/.*?\.png)\)", text):
+        assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    assert len(list((tmp_path / "fig").iterdir())) == 2
+
+
+def test_a_readme_without_marks_is_refused(small, tmp_path):
+    write_campaign(tmp_path / "campaign.h5", small, run(small, tmp_path / "store"))
+    options = ["--data", str(tmp_path / "campaign.h5"), "--readme", str(tmp_path / "none.md")]
+    done = subprocess.run(
+        [*REPORT, *options], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert re.fullmatch(r"report-campaign: .* lacks the lines [^\n]*\n", done.stderr)
+
+
+def test_the_shipped_readme_has_the_marks():
+    text = (ROOT / "models" / "README.md").read_text(encoding="utf-8")
+    assert text.count("<!-- campaign report: begin -->") == 1
+    assert text.count("<!-- campaign report: end -->") == 1
