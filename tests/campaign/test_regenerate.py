@@ -286,7 +286,7 @@ def test_the_quick_design_gives_points_of_every_kind(tmp_path, capsys):
     options = ["--store", str(tmp_path / "store"), "--out", str(tmp_path)]
     assert main(["--quick", "--jobs", "2", *options]) == 0
     points = load_campaign(tmp_path / "campaign.h5").points
-    assert len(points) == 24
+    assert len(points) == 21
     assert points["use"].sum() >= 12
     assert {2.0, 5.0, 9.0} == set(points["alpha"][points["use"]])
     assert points["g"][points["use"]].min() < 0.3 < 1.0 < points["g"][points["use"]].max()
