@@ -19,9 +19,9 @@ from .errors import InputError
 
 if TYPE_CHECKING:
     from .body import Body
+    from .cut import Settings
     from .equilibrium import State
     from .record import Record
-    from .solve import Settings
 
 _NAME = "python -m fe_training"
 _RESOLUTIONS = ("coarse", "standard", "fine")
@@ -320,10 +320,11 @@ def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
 
 def _again(record: Record, settings: Settings) -> tuple[Body, State]:
     """Solve the configuration of a record once more, for its displacements."""
+    from .cut import Cut
     from .equilibrium import Control
     from .mesh import MeshSpec
     from .path import Steps
-    from .solve import Cut, indentation_states
+    from .solve import indentation_states
 
     cut = Cut(record.alpha, MeshSpec(**record.mesh), settings)
     if cut.spec.contact_start > 0:

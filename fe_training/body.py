@@ -13,6 +13,7 @@ from . import kernels
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 #: Quadrature exact for polynomials of this degree.
 _DEGREE = 4
@@ -43,11 +44,16 @@ class Body:
     alpha : float
         Strain-stiffening exponent [-].
     bulk : float
-        Bulk term kappa beside the pressure, beyond the first rings around the notch [mu].
+        Bulk term kappa beside the pressure [mu].
     hold : {"right", "all", "none"}
         The part of the outer arc that is held.
     compiled : bool
-        Use the compiled element loop where numba is installed.
+        Use the compiled element loops where numba is installed.
+    element : {"taylor-hood", "crouzeix-raviart"}
+        Shape functions.
+    polar : float
+        Elements within this distance from the tip interpolate polar coordinates about the wire's
+        centre [R_w]; see :mod:`fe_training.kernels`.
     """
 
     def __init__(
@@ -58,24 +64,41 @@ class Body:
         hold: str = "right",
         compiled: bool = True,
         element: str = "taylor-hood",
+        polar: float = 0.0,
     ) -> None:
         self.mesh, self.alpha = mesh, float(alpha)
-        self.element_arrays = kernels.element_arrays(compiled)
-        displacement_element, pressure_element = ELEMENTS[element]
-        basis = Basis(mesh, displacement_element(), intorder=_DEGREE)
-        pressure = basis.with_element(pressure_element())
+        self._options = (alpha, bulk, hold, compiled, element, polar)
+        self._plain_arrays, self._polar_arrays = kernels.element_arrays(compiled)
+        self._elements = tuple(kind() for kind in ELEMENTS[element])
+        basis = Basis(mesh, self._elements[0], intorder=_DEGREE)
+        pressure = basis.with_element(self._elements[1])
         self.nodes: Array = basis.doflocs.T.copy()
         self.connectivity: Index = basis.element_dofs.T.astype(np.int64)
         self.triangles: Index = pressure.element_dofs.T.astype(np.int64)
         self.grad: Array = np.ascontiguousarray(
             np.array([shape[0].grad for shape in basis.basis]).transpose(2, 3, 0, 1)
         )
+        self.shape: Array = np.array([np.asarray(shape[0])[0] for shape in basis.basis]).T.copy()
         self.psi: Array = np.array([np.asarray(shape[0])[0] for shape in pressure.basis]).T.copy()
         self.dx: Array = basis.dx.copy()
         self.pressure_places: Array = pressure.doflocs.T.copy()
-        self.bulk: Array = np.zeros(len(self.connectivity))
-        self.bulk[self.beyond_notch] = bulk
+        self.bulk: Array = np.full(len(self.connectivity), float(bulk))
+        self.polar: Flags = np.hypot(*mesh.p)[mesh.t].max(axis=0) < polar
         self._number_unknowns(basis, hold)
+
+    def on(self, mesh: MeshTri) -> Body:
+        """Return a body of the same material, elements and support on another mesh."""
+        return Body(mesh, *self._options)
+
+    def displacement_shape(self, local: Array) -> Array:
+        """Return the displacement shape functions at local coordinates (2, ...), last axis."""
+        count = self.connectivity.shape[1]
+        return np.stack([self._elements[0].lbasis(local, i)[0] for i in range(count)], axis=-1)
+
+    def pressure_shape(self, local: Array) -> Array:
+        """Return the pressure shape functions at local coordinates (2, ...), last axis."""
+        count = self.triangles.shape[1]
+        return np.stack([self._elements[1].lbasis(local, i)[0] for i in range(count)], axis=-1)
 
     @property
     def displacements(self) -> int:
@@ -89,8 +112,9 @@ class Body:
 
     @property
     def notch_radius(self) -> float:
-        """Radius of the notch [R_w]."""
-        return float(np.hypot(*self.mesh.p).min())
+        """Radius of the notch, where it meets the ligament [R_w]."""
+        x, y = self.mesh.p
+        return float(x[(y == 0) & (x > 0)].min())
 
     @property
     def outer_radius(self) -> float:
@@ -101,7 +125,7 @@ class Body:
         facets = self.mesh.boundary_facets()
         middle = self.mesh.p[:, self.mesh.facets[:, facets]].mean(axis=1)
         radius = np.hypot(*middle)
-        on_notch = radius < 1.001 * self.notch_radius
+        on_notch = (middle[1] > 0) & (radius < np.sqrt(self.notch_radius * self.outer_radius))
         on_arc = (middle[1] > 0) & ~on_notch
         on_face = on_notch | ((middle[1] == 0) & (middle[0] < 0))
         face = np.unique(basis.get_dofs(facets=facets[on_face]).flatten())
@@ -122,6 +146,13 @@ class Body:
         x, y = self.nodes[face].T
         along_notch = np.where(np.hypot(x, y) < 1.001 * self.notch_radius, np.arctan2(y, x), np.pi)
         return np.lexsort((-x, along_notch))
+
+    @cached_property
+    def along_face(self) -> Array:
+        """Reference distance of face nodes from the tip along the boundary [R_w]."""
+        steps = np.hypot(*np.diff(self.nodes[self.face], axis=0).T)
+        distance: Array = np.concatenate([[0.0], np.cumsum(steps)])
+        return distance
 
     @cached_property
     def beyond_notch(self) -> Index:
@@ -159,7 +190,9 @@ class Body:
         pointers = np.searchsorted(rows, np.arange(count + 1))
         return rows, columns, pointers, target
 
-    def element_forces(self, u: Array, p: Array) -> tuple[Array, Array]:
+    def element_forces(
+        self, u: Array, p: Array, centre: Array | None = None
+    ) -> tuple[Array, Array]:
         """Return residual and tangent of every element.
 
         Parameters
@@ -168,16 +201,64 @@ class Body:
             Displacements [R_w].
         p : ndarray, shape (vertices,)
             Pressures [mu].
+        centre : ndarray, shape (2,), optional
+            Centre of the wire [R_w]; needed where there are polar elements.
 
         Returns
         -------
         residual : ndarray, shape (elements, 15)
         tangent : ndarray, shape (elements, 15, 15)
         """
-        local = self._local(u)
-        return self.element_arrays(
-            local, p[self.triangles], self.grad, self.psi, self.dx, self.alpha, self.bulk
+        if not self.polar.any():
+            return self._plain(u, p, slice(None))
+        assert centre is not None, "polar elements need the wire's centre"
+        plain, polar = np.flatnonzero(~self.polar), np.flatnonzero(self.polar)
+        m = self.element_unknowns.shape[1]
+        residual, tangent = np.empty((len(self.polar), m)), np.empty((len(self.polar), m, m))
+        residual[plain], tangent[plain] = self._plain(u, p, plain)
+        residual[polar], tangent[polar] = self._polar_arrays(
+            self.about(u, centre, polar),
+            p[self.triangles[polar]],
+            self.shape,
+            self.grad[polar],
+            self.psi,
+            self.dx[polar],
+            self.alpha,
+            self.bulk[polar],
         )
+        return residual, tangent
+
+    def _plain(self, u: Array, p: Array, elements: Index | slice) -> tuple[Array, Array]:
+        return self._plain_arrays(
+            self._local(u, elements),
+            p[self.triangles[elements]],
+            self.grad[elements],
+            self.psi,
+            self.dx[elements],
+            self.alpha,
+            self.bulk[elements],
+        )
+
+    def about(self, u: Array, centre: Array, elements: Index) -> Array:
+        """Return the nodes of elements relative to the wire's centre."""
+        nodes = self.connectivity[elements]
+        relative: Array = self.nodes[nodes] + u[nodes] - centre
+        return relative
+
+    def centre_rate(self, tangent: Array, axis: Array) -> Array:
+        """Return the derivative of the residual as the wire's centre moves along `axis`.
+
+        Only polar elements see the centre; they see its move as that of their own nodes backwards.
+        """
+        elements = np.flatnonzero(self.polar)
+        nodes = self.connectivity.shape[1]
+        moved = np.concatenate([np.tile(axis, nodes), np.zeros(self.triangles.shape[1])])
+        rate = np.bincount(
+            self.element_unknowns[elements].ravel(),
+            -(tangent[elements] @ moved).ravel(),
+            minlength=self.size,
+        )
+        return np.asarray(rate, dtype=np.float64)
 
     def _local(self, u: Array, elements: Index | slice = slice(None)) -> Array:
         """Return the displacements of each element's nodes relative to its first node.
@@ -214,10 +295,34 @@ class Body:
         data[off & (rows == columns)] = 1.0
         return sp.csr_matrix((data, matrix.indices, matrix.indptr), shape=matrix.shape)
 
-    def displacement_gradient(self, u: Array, elements: Index | slice = slice(None)) -> Array:
-        """Return grad u at the quadrature points, shape (2, 2, elements, points)."""
+    def displacement_gradient(
+        self, u: Array, elements: Index | slice = slice(None), centre: Array | None = None
+    ) -> Array:
+        """Return F - I at the quadrature points, up to a rotation of polar elements.
+
+        Parameters
+        ----------
+        u : ndarray, shape (nodes, 2)
+            Displacements [R_w].
+        elements : ndarray of int or slice
+            Which elements, by default all.
+        centre : ndarray, shape (2,), optional
+            Centre of the wire [R_w]; needed where there are polar elements.
+
+        Returns
+        -------
+        ndarray, shape (2, 2, elements, points)
+        """
         arm = self._local(u, elements).transpose(0, 2, 1)[:, None]
         gradient: Array = np.moveaxis(arm @ self.grad[elements], (2, 3), (0, 1))
+        which = np.arange(len(self.polar))[elements]
+        polar = np.flatnonzero(self.polar[which])
+        if len(polar):
+            assert centre is not None, "polar elements need the wire's centre"
+            chosen = which[polar]
+            gradient[:, :, polar] = kernels.polar_gradient(
+                self.about(u, centre, chosen), self.shape, self.grad[chosen]
+            )
         return gradient
 
     def pressure_at_points(self, p: Array, elements: Index | slice = slice(None)) -> Array:

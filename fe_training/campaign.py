@@ -19,11 +19,12 @@ from typing import Any
 
 import numpy as np
 
+from .cut import Settings
 from .design import STRATEGIES, CampaignDesign, Configuration, Task
 from .errors import InputError, MissingExtraError, WirecutError
 from .record import Outcome, Record
 from .software import software
-from .solve import Settings, solve_path
+from .solve import solve_path
 from .store import Row, Store
 
 __all__ = ["Plan", "Workers", "plan", "run_campaign", "run_task"]

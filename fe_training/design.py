@@ -17,8 +17,9 @@ import numpy as np
 
 from surrogate.paths import file_name
 
+from .cut import Settings
 from .errors import InputError
-from .solve import ALPHA_RANGE, G_RANGE, Settings
+from .solve import ALPHA_RANGE, G_RANGE
 
 if sys.version_info >= (3, 11):
     import tomllib

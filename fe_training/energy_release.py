@@ -50,7 +50,7 @@ def domain_integral(body: Body, state: State, inner: float, outer: float) -> flo
     det = a[0] * b[1] - a[1] * b[0]
     slope = np.array([dq1 * b[1] - dq2 * b[0], dq2 * a[0] - dq1 * a[1]]) / det
     elements = np.flatnonzero(np.abs(slope).sum(axis=0) > 0)
-    H = body.displacement_gradient(state.u, elements)
+    H = body.displacement_gradient(state.u, elements, state.centre)
     p = body.pressure_at_points(state.p, elements)
     bulk = body.bulk[elements, None]
     P = ogden.stress(H, p, body.alpha, bulk)
@@ -63,7 +63,7 @@ def domain_integral(body: Body, state: State, inner: float, outer: float) -> flo
 
 def strain_energy(body: Body, state: State) -> float:
     """Return the strain energy U of the half body [mu R_w^2 per unit thickness]."""
-    H = body.displacement_gradient(state.u)
+    H = body.displacement_gradient(state.u, centre=state.centre)
     p = body.pressure_at_points(state.p)
     W = ogden.energy(H, body.alpha, body.bulk[:, None]) + p * ogden.volume_change(H)
     return float(np.einsum("eq,eq->", W, body.dx))

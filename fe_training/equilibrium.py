@@ -28,6 +28,8 @@ RESIDUAL_GOAL = 1e-10
 #: this bound is accepted, and recorded.
 RESIDUAL_BOUND = 1e-6
 _DIVERGED = 1e8
+#: Contact forces below this count as this much in relative residuals [mu R_w].
+_LEAST_FORCE = 1e-3
 #: Share of det F that a quadrature point keeps in one step, and halvings tried for it.
 _LEAST_SHARE, _HALVINGS = 0.2, 6
 
@@ -173,11 +175,11 @@ def _control_rate(
 class _Linearisation:
     """Residual and tangent at one state, in the turned directions of its touching nodes."""
 
-    def __init__(self, body: Body, state: State) -> None:
-        self.body = body
+    def __init__(self, body: Body, state: State, axis: Array) -> None:
+        self.body, self.axis = body, axis
         active = state.active
         self.geo = contact.geometry(body, state.u, state.centre, active)
-        element_r, element_k = body.element_forces(state.u, state.p)
+        element_r, element_k = body.element_forces(state.u, state.p, state.centre)
         internal = body.gather(element_r)
         self.force = contact.nodal_forces(body, internal, self.geo, active)
         self.state = replace(state, force=self.force, normal=self.geo.normal)
@@ -187,6 +189,8 @@ class _Linearisation:
         normal = self.geo.normal[touching]
         # columns: normal and tangential direction
         self.turn = np.stack([normal, np.stack([-normal[:, 1], normal[:, 0]], axis=1)], axis=2)
+        self.centre_rate = body.centre_rate(element_k, axis)
+        self._turn(self.centre_rate)
         self._turn_elements(element_k)
         self.residual = internal
         self._turn(self.residual)
@@ -238,19 +242,20 @@ class _Linearisation:
         """Return the residual of what must vanish, relative to the contact force."""
         open_ = self.body.free & ~self.prescribed
         r = (self.residual * self.body.scale)[open_]
-        total = max(float(np.abs(self.force).sum()), 1e-12)
+        total = max(float(np.abs(self.force).sum()), _LEAST_FORCE)
         gaps = np.abs(self.geo.gap[self.touching]).max(initial=0.0)
         return float(np.sqrt(r @ r) / total + gaps)
 
-    def directions(self, solver: LinearSolver, axis: Array) -> tuple[_Direction, _Direction]:
+    def directions(self, solver: LinearSolver) -> tuple[_Direction, _Direction]:
         """Return the Newton step at a fixed wire, and the response to a unit move of the wire."""
-        body = self.body
+        body, axis = self.body, self.axis
         known = np.zeros((body.size, 2))
         known[2 * self.nodes, 0] = -self.geo.gap[self.touching]
         known[2 * self.nodes, 1] = np.where(self.wire, self.turn[:, :, 0] @ axis, 0.0)
         right = np.zeros((body.size, 2))
         right[:, 0] = -self.residual
-        right[2 * self.nodes + 1, 1] = -self.curvature * (self.turn[:, :, 1] @ axis)
+        right[:, 1] = -self.centre_rate
+        right[2 * self.nodes + 1, 1] -= self.curvature * (self.turn[:, :, 1] @ axis)
         free, fixed = body.free, self.prescribed[body.free]
         scale = body.scale[free][:, None]
         known_free = known[free] / scale
@@ -260,6 +265,7 @@ class _Linearisation:
         x = solver.solve(right_free)
         normal_force = np.zeros((body.size, 2))
         normal_force[free] = self.matrix @ x / scale
+        normal_force[:, 1] += self.centre_rate
         full = np.zeros((body.size, 2))
         full[free] = x * scale
         return self._direction(full[:, 0], normal_force[:, 0]), self._direction(
@@ -280,7 +286,7 @@ def predicted(body: Body, state: State, control: Control, target: float) -> Stat
         return state
     t = state.tangent
     step = target - control_value(body, state, control)
-    step *= _admissible(body, state.u, step * t.u)
+    step *= _admissible(body, state, step * t.u, step * t.centre)
     return replace(
         state,
         u=state.u + step * t.u,
@@ -289,18 +295,20 @@ def predicted(body: Body, state: State, control: Control, target: float) -> Stat
     )
 
 
-def _admissible(body: Body, u: Array, step: Array) -> float:
+def _admissible(body: Body, state: State, step: Array, move: Array) -> float:
     """Return the length of a step that leaves every element a share of its area.
 
     Each quadrature point may lose at most most of its determinant in one step; the determinant is
-    quadratic in the length, so a few halvings suffice.
+    smooth in the length, so a few halvings suffice.
     """
     watched = body.beyond_notch
-    before = ogden.volume_change(body.displacement_gradient(u, watched)) + 1.0
+    u, centre = state.u, state.centre
+    before = ogden.volume_change(body.displacement_gradient(u, watched, centre)) + 1.0
     floor = np.minimum(_LEAST_SHARE * before, _LEAST_SHARE)
     t = 1.0
     for _ in range(_HALVINGS):
-        after = ogden.volume_change(body.displacement_gradient(u + t * step, watched)) + 1.0
+        there = body.displacement_gradient(u + t * step, watched, centre + t * move)
+        after = ogden.volume_change(there) + 1.0
         if (after > floor).all():
             return t
         t *= 0.5
@@ -314,6 +322,7 @@ def equilibrate(
     target: float,
     solver: LinearSolver,
     max_iterations: int = 30,
+    guarded: bool = True,
 ) -> tuple[State, NewtonOutcome]:
     """Return the equilibrium at which a control has its target value.
 
@@ -331,6 +340,8 @@ def equilibrate(
         Used for every linear system; its analysis is reused.
     max_iterations : int
         Newton iterations allowed.
+    guarded : bool
+        Shorten steps in which elements lose most of their area.
 
     Returns
     -------
@@ -346,7 +357,7 @@ def equilibrate(
     tangent: State | None = None
     with np.errstate(all="ignore"):  # a diverging iterate is caught by its residual
         for iteration in range(max_iterations + 1):
-            lin = _Linearisation(body, state)
+            lin = _Linearisation(body, state, axis)
             state = lin.state
             norm = lin.norm()
             if not norm < _DIVERGED:
@@ -365,7 +376,7 @@ def equilibrate(
                 return done, NewtonOutcome.CONVERGED
             if iteration == max_iterations:
                 break
-            newton, move = lin.directions(solver, axis)
+            newton, move = lin.directions(solver)
             nothing = np.zeros(2)
             rate = _control_rate(body, control, move, axis, lin.geo, state)
             drift = _control_rate(body, control, newton, nothing, lin.geo, state)
@@ -374,7 +385,7 @@ def equilibrate(
             tangent = State(
                 move.u / rate, move.p / rate, axis / rate, state.active, move.force, state.normal
             )
-            t = _admissible(body, state.u, step.u)
+            t = _admissible(body, state, step.u, length * axis) if guarded else 1.0
             u, centre = state.u + t * step.u, state.centre + t * length * axis
             force = state.force + t * step.force
             active = contact.updated(body, u, centre, state.active, force)

@@ -128,7 +128,7 @@ def stress_ahead(body: Body, state: State, reach: float = 100.0) -> StressAhead:
 
 def principal_stretch(body: Body, state: State) -> Array:
     """Return the larger principal stretch at the quadrature points, shape (elements, points)."""
-    H = body.displacement_gradient(state.u)
+    H = body.displacement_gradient(state.u, centre=state.centre)
     s = np.hypot(2.0 + H[0, 0] + H[1, 1], H[1, 0] - H[0, 1])
     d = np.hypot(H[0, 0] - H[1, 1], H[1, 0] + H[0, 1])
     return np.asarray(0.5 * (s + d))

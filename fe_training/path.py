@@ -47,7 +47,8 @@ def least_determinant(
     body: Body, state: State, elements: NDArray[np.int64] | slice = slice(None)
 ) -> float:
     """Return the smallest det F over the quadrature points of some elements, by default all."""
-    return float(1.0 + ogden.volume_change(body.displacement_gradient(state.u, elements)).min())
+    H = body.displacement_gradient(state.u, elements, state.centre)
+    return float(1.0 + ogden.volume_change(H).min())
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .solve import Settings
+from .cut import Settings
 
 #: From quick looks to convergence checks.  A coarse mesh has a blunt notch in a small body: its
 #: |J - 2 F_h|/J may be above the bounds of the evidence.

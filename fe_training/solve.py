@@ -7,29 +7,23 @@ each distance, on a mesh that is fine below it.  The branch is chosen here.
 
 from __future__ import annotations
 
-import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import replace
 
 from surrogate.errors import InputError
 
-from . import observe, path
-from .body import Body
-from .energy_release import domain_integral, strain_energy
-from .equilibrium import Control, NewtonOutcome, State, control_value, undeformed
-from .mesh import MeshSpec, crack_mesh
+from . import path
+from .cut import Cut, Settings
+from .equilibrium import Control, State, control_value
+from .mesh import MeshSpec
 from .path import PathStalledError, Steps
 from .record import Outcome, Record
 from .reference import far_field_wedge, far_field_wedge_from_energy_release_rate
-from .solvers import LinearSolver, make_solver
 
 #: Stiffening exponents and dimensionless toughnesses that the engine is made for.
 ALPHA_RANGE, G_RANGE = (1.0, 20.0), (1e-5, 1e4)
 
-_RAISE = Steps(0.1, 0.15)
 #: Reference position at which the wire is raised on the indentation branch [R_w].
 _START = -1.2
 _APPROACH = Steps(0.1, 0.2)
@@ -42,152 +36,6 @@ _TRIES = 4
 _FAR_FIELD_SPACING = 0.5
 #: Below this g the wire is raised afresh without trying the indentation branch.
 _SURELY_FAR = 0.3
-#: Share of B that a truncation at L takes away is taken to be this times sqrt(g R_w / L); assumed,
-#: not yet measured with this engine.
-TRUNCATION_FACTOR = 0.5
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """How finely and with what a configuration is solved.
-
-    Parameters
-    ----------
-    sectors : int
-        Sectors of the mesh over the half circle.
-    contact_spacing : float
-        See :class:`fe_training.mesh.MeshSpec`.
-    notch_radius : float
-        Radius of the notch on the indentation branch [R_w].
-    outer_radius : float
-        Radius of the body [R_w].
-    bulk : float
-        Bulk term beside the pressure [mu]; without it elements fold in the sheared layer behind
-        the contact at high toughness.
-    solver : str or None
-        Linear solver; the fastest one installed by default.
-    tolerance : float
-        Relative error allowed in the wanted value of g.
-    """
-
-    sectors: int = 24
-    contact_spacing: float = 0.1
-    notch_radius: float = 5e-4
-    outer_radius: float = 1e7
-    bulk: float = 1.0
-    solver: str | None = None
-    tolerance: float = 1e-4
-
-    def refined(self, factor: float = 1.5) -> Settings:
-        """Return settings with elements smaller by `factor`."""
-        return replace(
-            self,
-            sectors=round(self.sectors * factor),
-            contact_spacing=self.contact_spacing / factor,
-        )
-
-
-class Cut:
-    """A body of one material on one mesh, with what is needed to make records of its states.
-
-    Parameters
-    ----------
-    alpha : float
-        Strain-stiffening exponent [-].
-    spec : MeshSpec
-        The mesh.
-    settings : Settings
-        Bulk term and solver.
-    """
-
-    def __init__(self, alpha: float, spec: MeshSpec, settings: Settings) -> None:
-        self.spec, self.settings = spec, settings
-        self.body = Body(crack_mesh(spec), alpha, settings.bulk)
-        self.solver: LinearSolver = make_solver(settings.solver)
-        self._clock = time.perf_counter()
-
-    def raised(self, position: float) -> State:
-        """Return the state with the wire raised to the symmetry plane at `position`."""
-        return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
-
-    def last(self, state: State, control: Control, end: float, steps: Steps) -> State:
-        """Return the last state of a path."""
-        reached = deque(path.follow(self.body, state, control, end, steps, self.solver), maxlen=1)
-        return reached.pop() if reached else state
-
-    def supports(self, state: State) -> list[tuple[float, float]]:
-        """Return the supports of the domain integrals, nearest first.
-
-        The first is free of contact wherever there is room between the notch and the contact.
-        """
-        r0 = self.spec.notch_radius
-        near = 40.0 * r0
-        touching = self.body.face[state.active.wire]
-        if len(touching):
-            contact = float(np.hypot(*self.body.nodes[touching[0]]))
-            near = max(near, 0.5 * contact)
-        far = 2.0 * max(5.0, self.spec.contact_end)
-        return [(max(4.0 * r0, 0.1 * near), near), (near, far), (far, 10.0 * far)]
-
-    def energy_release_rate(self, state: State) -> float:
-        """Return J/(mu R_w) on the nearest support."""
-        return domain_integral(self.body, state, *self.supports(state)[0])
-
-    def record(self, state: State) -> Record:
-        """Return the record of an equilibrium."""
-        body = self.body
-        J, *across = [domain_integral(body, state, *s) for s in self.supports(state)]
-        arc = observe.contact_arc(body, state)
-        ahead = observe.stress_ahead(body, state)
-        tip = body.face[0]
-        now = time.perf_counter()
-        elapsed, self._clock = now - self._clock, now
-        record = Record(
-            alpha=body.alpha,
-            outcome=Outcome.CONVERGED,
-            energy_release_rate=J,
-            distance=control_value(body, state, Control.DISTANCE),
-            insertion=float(state.centre[0]),
-            horizontal_force=state.horizontal_force,
-            vertical_force=state.vertical_force,
-            theta_1=arc.theta_1,
-            theta_2=arc.theta_2,
-            strain_energy=strain_energy(body, state),
-            tip_position=float(body.nodes[tip, 0] + state.u[tip, 0]),
-            energy_release_rate_across=tuple(across),
-            residual=state.residual,
-            iterations=state.iterations,
-            min_determinant=path.least_determinant(body, state, body.beyond_notch),
-            max_stretch=float(observe.principal_stretch(body, state).max()),
-            touches_plane=bool(state.active.plane.any()),
-            unknowns=int(body.free.sum()),
-            mesh=self.spec.as_dict(),
-            bulk=self.settings.bulk,
-            solver=self.solver.name,
-            truncation_error=TRUNCATION_FACTOR * float(np.sqrt(max(J, 0.0) / body.outer_radius)),
-            wall_time=elapsed,
-            pressure_angle=arc.theta,
-            pressure=arc.pressure,
-            ahead_reference=ahead.reference,
-            ahead_deformed=ahead.deformed,
-            ahead_stress=ahead.opening,
-        )
-        if record.within_evidence:
-            return record
-        return replace(record, outcome=Outcome.OUTSIDE_EVIDENCE)
-
-    def failure(self, error: PathStalledError) -> Record:
-        """Return the record of a configuration that was not reached."""
-        folded = error.outcome is NewtonOutcome.CONVERGED
-        return Record(
-            alpha=self.body.alpha,
-            outcome=Outcome.FOLDED if folded else Outcome.STALLED,
-            reason=str(error),
-            unknowns=int(self.body.free.sum()),
-            mesh=self.spec.as_dict(),
-            bulk=self.settings.bulk,
-            solver=self.solver.name,
-        )
 
 
 def _checked(name: str, value: float, low: float, high: float, unit: str) -> float:
@@ -222,7 +70,7 @@ def far_field_cut(alpha: float, depth: float, settings: Settings) -> Cut:
         contact_end=depth + _WINDOW,
         contact_spacing=_FAR_FIELD_SPACING * settings.contact_spacing,
     )
-    return Cut(alpha, spec, settings)
+    return Cut(alpha, spec, replace(settings, polar=0.0))
 
 
 def indentation_states(cut: Cut) -> Iterator[State]:
@@ -235,9 +83,9 @@ def indentation_states(cut: Cut) -> Iterator[State]:
             end, steps = 2.0, _APPROACH
         else:
             end, steps = 1.5 * here, Steps(_PUSH_FIRST * here, _PUSH_LARGEST * here)
-        for reached in path.follow(cut.body, state, Control.POSITION, end, steps, cut.solver):
+        for reached in cut.moved(state, Control.POSITION, end, steps):
             yield reached
-        state = reached
+            state = reached
 
 
 def _indentation(
@@ -246,39 +94,22 @@ def _indentation(
     """Return the records at rising values of g, and the values below the start of the branch."""
     cut = indentation_cut(alpha, settings)
     records: list[Record] = []
-
-    def keep(record: Record) -> None:
-        records.append(record)
-        report(record)
-
-    measure = cut.energy_release_rate
-    passed: list[tuple[float, float]] = []
     below: list[float] = []
-    waiting = sorted(targets)
+    waiting = deque(sorted(targets))
     try:
-        for state in indentation_states(cut):
-            passed.append((float(state.centre[0]), measure(state)))
-            if len(passed) == 1:
-                below = [g for g in waiting if g < passed[0][1]]
-                waiting = waiting[len(below) :]
-            while waiting and len(passed) > 1 and waiting[0] <= passed[-1][1]:
-                g = waiting.pop(0)
-                landed = path.land(
-                    cut.body,
-                    state,
-                    Control.POSITION,
-                    measure,
-                    g,
-                    passed[-3:],
-                    cut.solver,
-                    settings.tolerance,
-                )
-                keep(cut.record(landed))
-            if not waiting:
-                break
+        state = cut.raised(_START)
+        start = cut.energy_release_rate(state)
+        while waiting and waiting[0] < start:
+            below.append(waiting.popleft())
+        while waiting:
+            state = cut.at(state, waiting[0])
+            waiting.popleft()
+            records.append(cut.record(state))
+            report(records[-1])
     except PathStalledError as error:
         for _ in waiting:
-            keep(cut.failure(error))
+            records.append(cut.failure(error))
+            report(records[-1])
     return records, below
 
 

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from fe_training.cut import Settings
 from fe_training.design import STRATEGIES, CampaignDesign, read_design
 from fe_training.errors import InputError
-from fe_training.solve import Settings
 from surrogate.paths import model_file
 
 from .conftest import SMALL

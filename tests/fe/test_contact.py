@@ -36,7 +36,7 @@ def test_matrix_is_the_derivative_of_the_residual_along_the_obstacle(cut, touchi
     rng = np.random.default_rng(12)
     if not touching:
         state = undeformed(body, -1.2)
-    lin = _Linearisation(body, state)
+    lin = _Linearisation(body, state, np.array([1.0, 0.0]))
     assert len(lin.nodes) == touching * state.active.any.sum()
     r = np.hypot(*places(body).T)[:, None]
     du = 1e-3 * np.minimum(r, 1.0) * rng.normal(size=state.u.shape)

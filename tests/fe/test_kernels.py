@@ -12,7 +12,7 @@ from fe_training.body import Body
 from fe_training.mesh import MeshSpec, crack_mesh
 
 TOLERANCE = 1e-12
-compiled = kernels.compiled_loop()
+compiled, compiled_polar = kernels._compiled() or (None, None)
 needs_numba = pytest.mark.skipif(compiled is None, reason="numba is not installed")
 
 
@@ -116,9 +116,11 @@ def test_element_arrays_are_the_material_point_by_point(loop):
 
 def test_twin_stands_in_where_numba_is_missing(monkeypatch):
     monkeypatch.setattr(kernels, "find_spec", lambda name: None)
-    monkeypatch.setattr(kernels, "compiled_loop", kernels.compiled_loop.__wrapped__)
-    assert kernels.element_arrays() is kernels.element_arrays_numpy
+    monkeypatch.setattr(kernels, "_compiled", kernels._compiled.__wrapped__)
+    assert kernels.element_arrays() == (kernels.element_arrays_numpy, kernels.polar_arrays_numpy)
 
 
 def test_twin_is_taken_on_request():
-    assert kernels.element_arrays(compiled=False) is kernels.element_arrays_numpy
+    plain, polar = kernels.element_arrays(compiled=False)
+    assert plain is kernels.element_arrays_numpy
+    assert polar is kernels.polar_arrays_numpy

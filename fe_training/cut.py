@@ -1,0 +1,241 @@
+"""A body of one material that is cut, adapted to what happens in it, and the records of its states.
+
+The mesh is refined along the path wherever the determinant of the deformation gradient scatters too
+much: at high toughness the elements around the wire are stretched a hundredfold, and where they
+must be small depends on the toughness and on the material.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import observe, path
+from .adapt import determinant_scatter, refined
+from .body import Body
+from .energy_release import domain_integral, strain_energy
+from .equilibrium import Control, NewtonOutcome, State, control_value, equilibrate, undeformed
+from .mesh import MeshSpec, crack_mesh
+from .path import PathStalledError, Steps
+from .record import Outcome, Record
+from .solvers import LinearSolver, make_solver
+
+_RAISE = Steps(0.1, 0.15)
+#: Largest relative change of the horizontal force in one step.
+_FORCE_STEP = 0.14
+_CORRECTIONS = 8
+#: Elements are split from this share of the scatter that is allowed, so that the next ones are
+#: not due at once.
+_SPLIT_SHARE = 0.5
+#: No element becomes shorter than this, relative to its distance from the tip.
+_SMALLEST = 0.02
+#: Elements nearer than this to the tip, in notch radii, are not split: the notch is no crack tip.
+_NOTCH_RINGS = 4.0
+#: Share of B that a truncation at L takes away is taken to be this times sqrt(g R_w / L); assumed,
+#: not yet measured with this engine.
+TRUNCATION_FACTOR = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How finely and with what a configuration is solved.
+
+    Parameters
+    ----------
+    sectors : int
+        Sectors of the mesh over the half circle.
+    contact_spacing : float
+        See :class:`fe_training.mesh.MeshSpec`.
+    notch_radius : float
+        Radius of the notch on the indentation branch [R_w].
+    outer_radius : float
+        Radius of the body [R_w].
+    bulk : float
+        Bulk term beside the pressure [mu]; without it the incompressibility of the mixed element
+        leaks where stretches are large.
+    polar : float
+        Elements within this distance from the tip interpolate polar coordinates [R_w].
+    scatter : float
+        Root mean square of det F - 1 in an element from which on it is split [-].
+    solver : str or None
+        Linear solver; the fastest one installed by default.
+    tolerance : float
+        Relative error allowed in the wanted value of g.
+    """
+
+    sectors: int = 24
+    contact_spacing: float = 0.1
+    notch_radius: float = 5e-4
+    outer_radius: float = 1e7
+    bulk: float = 1.0
+    polar: float = 1.0
+    scatter: float = 0.2
+    solver: str | None = None
+    tolerance: float = 1e-4
+
+    def refined(self, factor: float = 1.5) -> Settings:
+        """Return settings with elements smaller by `factor`."""
+        return replace(
+            self,
+            sectors=round(self.sectors * factor),
+            contact_spacing=self.contact_spacing / factor,
+        )
+
+
+class Cut:
+    """A body of one material on one mesh, with what is needed to make records of its states.
+
+    Parameters
+    ----------
+    alpha : float
+        Strain-stiffening exponent [-].
+    spec : MeshSpec
+        The mesh.
+    settings : Settings
+        Bulk term and solver.
+    """
+
+    def __init__(self, alpha: float, spec: MeshSpec, settings: Settings) -> None:
+        self.spec, self.settings = spec, settings
+        self.body = Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
+        self.solver: LinearSolver = make_solver(settings.solver)
+        self._clock = time.perf_counter()
+
+    def raised(self, position: float) -> State:
+        """Return the state with the wire raised to the symmetry plane at `position`."""
+        return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+
+    def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:
+        """Yield the states of a path, the mesh adapted on the way."""
+        adapted: State | None = state
+        while adapted is not None:
+            state, adapted = adapted, None
+            for reached in path.follow(self.body, state, control, end, steps, self.solver):
+                adapted = self._adapted(reached, control)
+                if adapted is not None:
+                    yield adapted
+                    break
+                yield reached
+
+    def _adapted(self, state: State, control: Control) -> State | None:
+        """Return the state on a mesh refined for it, or None if the mesh is fine enough."""
+        allowed = self.settings.scatter
+        scatter = determinant_scatter(self.body, state)
+        scatter[~self._splittable()] = 0.0
+        if scatter.max() < allowed:
+            return None
+        split = np.flatnonzero(scatter > _SPLIT_SHARE * allowed)
+        value = control_value(self.body, state, control)
+        body, carried = refined(self.body, state, split)
+        solver = make_solver(self.settings.solver)
+        # the element at the end of the contact may fold for an iteration: full steps pass it
+        found, outcome = equilibrate(body, carried, control, value, solver, guarded=False)
+        if outcome is not NewtonOutcome.CONVERGED:
+            raise PathStalledError(state, control, value, outcome)
+        self.body, self.solver = body, solver
+        return found
+
+    def _splittable(self) -> NDArray[np.bool_]:
+        """Return the elements that are neither in the notch nor very small."""
+        corners = self.body.mesh.p[:, self.body.mesh.t]
+        distance = np.hypot(*corners.mean(axis=1))
+        longest = np.hypot(*(corners - np.roll(corners, 1, axis=1))).max(axis=0)
+        beyond = distance > _NOTCH_RINGS * self.spec.notch_radius
+        return np.asarray(beyond & (longest > _SMALLEST * distance))
+
+    def last(self, state: State, control: Control, end: float, steps: Steps) -> State:
+        """Return the last state of a path."""
+        reached = deque(self.moved(state, control, end, steps), maxlen=1)
+        return reached.pop() if reached else state
+
+    def at(self, state: State, g: float) -> State:
+        """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
+        force = 0.5 * g
+        for _ in range(_CORRECTIONS):
+            now = abs(state.horizontal_force)
+            steps = Steps(_FORCE_STEP * now, _FORCE_STEP * max(now, force))
+            state = self.last(state, Control.FORCE, force, steps)
+            ratio = self.energy_release_rate(state) / g
+            if abs(ratio - 1.0) < self.settings.tolerance:
+                return state
+            force /= ratio
+        raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
+
+    def supports(self, state: State) -> list[tuple[float, float]]:
+        """Return the supports of the domain integrals, nearest first.
+
+        The first is free of contact wherever there is room between the notch and the contact.
+        """
+        r0 = self.spec.notch_radius
+        near = 40.0 * r0
+        touching = self.body.face[state.active.wire]
+        if len(touching):
+            contact = float(np.hypot(*self.body.nodes[touching[0]]))
+            near = max(near, 0.5 * contact)
+        far = 2.0 * max(5.0, self.spec.contact_end)
+        return [(max(4.0 * r0, 0.1 * near), near), (near, far), (far, 10.0 * far)]
+
+    def energy_release_rate(self, state: State) -> float:
+        """Return J/(mu R_w) on the nearest support."""
+        return domain_integral(self.body, state, *self.supports(state)[0])
+
+    def record(self, state: State) -> Record:
+        """Return the record of an equilibrium."""
+        body = self.body
+        J, *across = [domain_integral(body, state, *s) for s in self.supports(state)]
+        arc = observe.contact_arc(body, state)
+        ahead = observe.stress_ahead(body, state)
+        tip = body.face[0]
+        now = time.perf_counter()
+        elapsed, self._clock = now - self._clock, now
+        record = Record(
+            alpha=body.alpha,
+            outcome=Outcome.CONVERGED,
+            energy_release_rate=J,
+            distance=control_value(body, state, Control.DISTANCE),
+            insertion=float(state.centre[0]),
+            horizontal_force=state.horizontal_force,
+            vertical_force=state.vertical_force,
+            theta_1=arc.theta_1,
+            theta_2=arc.theta_2,
+            strain_energy=strain_energy(body, state),
+            tip_position=float(body.nodes[tip, 0] + state.u[tip, 0]),
+            energy_release_rate_across=tuple(across),
+            residual=state.residual,
+            iterations=state.iterations,
+            min_determinant=path.least_determinant(body, state, body.beyond_notch),
+            max_stretch=float(observe.principal_stretch(body, state).max()),
+            touches_plane=bool(state.active.plane.any()),
+            unknowns=int(body.free.sum()),
+            mesh=self.spec.as_dict(),
+            bulk=self.settings.bulk,
+            solver=self.solver.name,
+            truncation_error=TRUNCATION_FACTOR * float(np.sqrt(max(J, 0.0) / body.outer_radius)),
+            wall_time=elapsed,
+            pressure_angle=arc.theta,
+            pressure=arc.pressure,
+            ahead_reference=ahead.reference,
+            ahead_deformed=ahead.deformed,
+            ahead_stress=ahead.opening,
+        )
+        if record.within_evidence:
+            return record
+        return replace(record, outcome=Outcome.OUTSIDE_EVIDENCE)
+
+    def failure(self, error: PathStalledError) -> Record:
+        """Return the record of a configuration that was not reached."""
+        folded = error.outcome is NewtonOutcome.CONVERGED
+        return Record(
+            alpha=self.body.alpha,
+            outcome=Outcome.FOLDED if folded else Outcome.STALLED,
+            reason=str(error),
+            unknowns=int(self.body.free.sum()),
+            mesh=self.spec.as_dict(),
+            bulk=self.settings.bulk,
+            solver=self.solver.name,
+        )
