@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 _NAME = "python -m fe_training"
 _RESOLUTIONS = ("coarse", "standard", "fine")
 _PICTURES = (".png", ".pdf", ".svg")
+_STUDIES = ("range", "mesh", "truncation", "contact", "parameters", "checks")
 #: Packages of the extra `train`.
 _EXTRA = {"scipy", "skfem", "sklearn", "joblib", "h5py", "tqdm", "matplotlib"}
 #: Relative difference between the wanted and the reached g that is pointed out.
@@ -60,6 +61,35 @@ the table:
 exit codes: 0 all reached, 1 some not reached, 2 bad input or a package missing
 """
 
+_VERIFY = """\
+Verify the engine by its own studies, each one held against its bounds.
+
+  range       J = 2 F_h over all exponents and toughnesses, and what happens beyond them
+  mesh        standard mesh against a finer one
+  truncation  radius of the body, and the law of the error that it makes
+  contact     spacing of the nodes under the contact
+  parameters  bulk term, polar interpolation, notch, refinement along the path
+  checks      J by a true shift of the tip; far field against linear elasticity
+
+Every solution is written to records.jsonl in the folder as soon as it is there: stop the command
+whenever you like and give it again, and it goes on where it was.  Tables, figures and summary.md
+are made of that file.  Studies that compare take their reference from `range`."""
+
+_VERIFY_EXAMPLE = """\
+examples:
+  python -m fe_training verify --quick
+      every study on coarse meshes in about a minute; not all bounds are kept on them
+  python -m fe_training verify --dry-run
+      how many configurations the full studies solve, and about how long that takes
+  python -m fe_training verify --study mesh truncation --alpha 2 --jobs 2
+      two studies at one exponent, on two processes of one thread each
+  python -m fe_training verify --no-solve
+      tables and figures of what is solved so far
+
+exit codes: 0 all bounds kept, 1 a bound broken or something not solved, 2 bad input or a package
+missing, 130 interrupted
+"""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code.
@@ -80,9 +110,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     >>> main(["solve", "--alpha", "5"]) == 2  # neither g nor distance nor insertion
     True
     """
-    return run_command(
-        "fe_training", lambda: _solve(_parser().parse_args(arguments)), _EXTRA, "wirecut[train]"
-    )
+
+    def action() -> int:
+        options = _parser().parse_args(arguments)
+        return _verify(options) if options.command == "verify" else _solve(options)
+
+    return run_command("fe_training", action, _EXTRA, "wirecut[train]")
 
 
 def _number(text: str) -> float:
@@ -122,7 +155,72 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("--json", metavar="FILE", help="write the records with their profiles to this file")
     add("--plot", metavar="FILE", help="draw mesh, J and stress ahead (.png, .pdf, .svg)")
+    shape["epilog"] = _VERIFY_EXAMPLE
+    _add_verify(
+        commands.add_parser("verify", help="verify the engine", description=_VERIFY, **shape)
+    )
     return parser
+
+
+def _add_verify(verify: argparse.ArgumentParser) -> None:
+    add = verify.add_argument
+    add("--quick", action="store_true", help="coarse meshes and few configurations, a minute or so")
+    add("--study", nargs="+", choices=_STUDIES, metavar="NAME", help="only these studies")
+    add(
+        "--alpha",
+        type=_number,
+        nargs="+",
+        metavar="A",
+        help="these exponents; outside 2 to 9 they are for the study range only",
+    )
+    add("--jobs", type=_count, default=1, metavar="N", help="processes, each with one thread (1)")
+    add("--out", metavar="DIR", help="where solutions, tables and figures go (output/verify)")
+    add("--retry", action="store_true", help="solve again what was not reached")
+    how = verify.add_mutually_exclusive_group()
+    how.add_argument("--dry-run", action="store_true", help="say what would run, solve nothing")
+    how.add_argument("--no-solve", action="store_true", help="tables of what is solved so far")
+
+
+def _count(text: str) -> int:
+    value = _number(text)
+    if value < 1 or value != int(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 on")
+    return int(value)
+
+
+def _verify(options: argparse.Namespace) -> int:
+    from .solve import ALPHA_RANGE
+    from .verify import cases_of, full_scope, judged, quick_scope
+    from .verify_report import summary_table, write_report
+    from .verify_run import estimated_seconds, read_solved, solve_cases
+
+    scope = quick_scope() if options.quick else full_scope()
+    if options.alpha:
+        for value in options.alpha:
+            low, high = ALPHA_RANGE
+            if not low <= value <= high:
+                raise InputError(f"alpha = {value:g} is out of range; give {low:g} to {high:g}.")
+        scope = scope.of(options.alpha)
+    studies = [name for name in _STUDIES if name in (options.study or _STUDIES)]
+    folder = Path(options.out or Path("output") / ("verify-quick" if options.quick else "verify"))
+    cases, file = cases_of(studies, scope), folder / "records.jsonl"
+    solved = read_solved(file)
+    left = [
+        case
+        for case in cases
+        if case.key not in solved or (options.retry and not solved[case.key].reached)
+    ]
+    hours = estimated_seconds(left) / 3600
+    _write(f"{len(left)} of {len(cases)} configurations to solve, about {hours:.2f} h of one core")
+    if options.dry_run:
+        return 0
+    if not options.no_solve:
+        solve_cases(left, file, options.jobs, options.retry)
+    solved = read_solved(file)
+    results = [judged(name, scope, solved) for name in studies]
+    files = write_report(folder, scope, results, solved)
+    _write(summary_table(results) + f"\nwritten: {files[-1]} and {len(files) - 1} more beside it")
+    return 0 if all(result.passed for result in results) else 1
 
 
 def _solve(options: argparse.Namespace) -> int:
