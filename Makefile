@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow campaign-quick check format clean
+.PHONY: demo test test-slow campaign-quick verify check format clean
 .DEFAULT_GOAL := demo
 
 $(BIN)/python:
@@ -28,6 +28,9 @@ test-slow: $(VENV)/.dev-installed
 
 campaign-quick: $(VENV)/.dev-installed
 	$(BIN)/regen-surrogate --quick --jobs 2
+
+verify: $(VENV)/.dev-installed
+	$(BIN)/python -m fe_training verify --jobs 2
 
 check: $(VENV)/.dev-installed
 	$(BIN)/ruff check .

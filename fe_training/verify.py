@@ -318,7 +318,7 @@ def full_scope(base: Settings | None = None) -> Scope:
 
 def quick_scope() -> Scope:
     """Return a scope of coarse meshes and few configurations, which need not keep the bounds."""
-    gs = (0.5, 1.0, 2.0)
+    gs = (0.5, 2.0)
     return Scope(
         base=RESOLUTIONS["coarse"],
         alphas=(5.0,),
@@ -329,11 +329,11 @@ def quick_scope() -> Scope:
         mesh_alphas=(5.0,),
         compared_alphas=(5.0,),
         compared_gs=gs,
-        parameter_gs=gs[:2],
-        shift_gs=gs[1:2],
-        radii=(0.1, 0.01),
+        parameter_gs=gs,
+        shift_gs=gs[1:],
+        radii=(0.1,),
         spacings=(0.7,),
-        parameters=(("bulk", 2.0), ("scatter", 0.5)),
+        parameters=(("bulk", 2.0),),
     )
 
 
@@ -351,7 +351,7 @@ def _variants(study: str, scope: Scope) -> list[tuple[str, Settings]]:
     for name, factor in changed:
         value = float(f"{getattr(base, name) * factor:.6g}")
         changes: dict[str, Any] = {name: value}
-        variants.append((f"{name} = {value:g}", replace(base, **changes)))
+        variants.append((f"{name} = {value:.3g}", replace(base, **changes)))
     return variants
 
 
@@ -619,15 +619,17 @@ def _truncation_facts(findings: Sequence[Finding]) -> dict[str, float]:
     if not rows:
         return {}
     change, ratio, left = np.array(rows).T
-    factors = change / (np.sqrt(ratio) - np.sqrt(left))
+    law = np.sqrt(ratio) - np.sqrt(left)
+    factors = change / law
     facts = {
         "factor c, median": float(np.median(factors)),
         "factor c, smallest": float(factors.min()),
         "factor c, largest": float(factors.max()),
         "rows in the fit": len(rows),
     }
-    if np.ptp(np.log(ratio)) > 1.0:
-        facts["exponent of g R_w/L"] = float(np.polyfit(np.log(ratio), np.log(change), 1)[0])
+    if np.ptp(np.log(law)) > 0.5:
+        slope = float(np.polyfit(np.log(law), np.log(change), 1)[0])
+        facts["exponent of g R_w/L, 0.5 in the law"] = 0.5 * slope
     return facts
 
 

@@ -25,6 +25,21 @@ __all__ = ["Line", "plot_measure", "plot_truncation", "summary", "summary_table"
 
 _VERDICTS = {True: "pass", False: "FAIL", None: "-"}
 _DPI = 300
+_DOUBLE_COLUMN = 183.0 / 25.4
+#: What stands at the axes instead of the names of the tables.
+_SYMBOLS = {
+    "|J-2F_h|/J": r"$|J - 2F_h|/J$",
+    "|J/g-1|": r"$|J/(g \mu R_w) - 1|$",
+    "spread of J": r"spread of $J$",
+    "|dB|/B": r"$|\Delta B|/B$",
+    "|dA|": r"$|\Delta A|$",
+    "|dJ|/J at equal delta": r"$|\Delta J|/J$ at equal $\delta$",
+    "|-2dU/dc / J - 1|": r"$|-2\,(dU/dc)/J - 1|$",
+    "|J / (F_v^2/(2 pi delta)) - 1|": r"$|2\pi\mu\delta J/F_v^2 - 1|$",
+    "|B / wedge - 1|": r"$|B/B_{wedge} - 1|$",
+    "|A / wedge - 1|": r"$|A/A_{wedge} - 1|$",
+    "|J / wedge - 1|": r"$|J/J_{wedge} - 1|$",
+}
 #: Failures that the summary lists for each study; all of them are in its table.
 _MOST_FAILURES = 12
 #: Values below this are drawn on it: rounding.
@@ -315,7 +330,7 @@ def _plain(value: Any) -> Any:
 
 
 def _draw(folder: Path, result: StudyResult) -> list[Path]:
-    """Draw a panel for each measure of a study, below each other."""
+    """Draw a panel for each measure of a study."""
     from matplotlib.figure import Figure
 
     names = list(dict.fromkeys(m.name for f in result.findings for m in f.measures))
@@ -325,15 +340,18 @@ def _draw(folder: Path, result: StudyResult) -> list[Path]:
     if result.facts:
         panels.append(functools.partial(plot_truncation, result))
     plots._require_matplotlib()
-    size = (plots.SINGLE_COLUMN, 0.62 * plots.SINGLE_COLUMN * len(panels) + 0.6)
+    rows = math.ceil(len(panels) / 2)
+    size = (_DOUBLE_COLUMN, 0.33 * _DOUBLE_COLUMN * rows + 0.7)
     figure = Figure(figsize=size, layout="constrained")
-    for i, (panel, ax) in enumerate(
-        zip(panels, figure.subplots(len(panels), 1, squeeze=False)[:, 0], strict=True)
-    ):
+    places = figure.subplots(rows, 2, squeeze=False).ravel()
+    for panel, ax in zip(panels, places, strict=False):
         panel(ax)
-        legend = ax.get_legend()
-        if i and legend is not None and i < len(names):
-            legend.remove()
+    for ax in places[1 : len(names)]:
+        ax.get_legend().remove()  # the first panel names them all
+    for ax in places[len(panels) :]:
+        ax.remove()
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")  # laid out once for all files
     files = [folder / f"{result.name}{ending}" for ending in (".pdf", ".png")]
     for file in files:
         figure.savefig(file, dpi=_DPI)
@@ -366,11 +384,11 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     >>> row = Finding("mesh", "fine", 2.0, 1.0, "converged", (Measure("|dB|/B", 1e-3, 5e-3),), True)
     >>> ax = plot_measure(StudyResult("mesh", (row,)), "|dB|/B", Figure().add_subplot())
     >>> ax.get_ylabel()
-    '|dB|/B [-]'
+    '$|\\\\Delta B|/B$ [-]'
     """
     ax = ax or plots._new_axes(0.8)
     rows = [(f, m) for f in result.findings if f.solved for m in f.measures if m.name == name]
-    alphas = sorted({one.alpha for one, _ in rows})
+    alphas = list(dict.fromkeys(one.alpha for one, _ in rows))
     variants = list(dict.fromkeys(one.variant for one, _ in rows))
     by_variant = len(variants) > 1 and result.name != "range"
     by_alpha = any(math.isnan(one.g) for one, _ in rows)
@@ -416,23 +434,25 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     for i, variant in enumerate(variants if by_variant else []):
         ax.plot([], [], "-", color=_colour(i), lw=1.5, label=variant.replace("_", " "))
     x_label = r"stiffening exponent $\alpha$ [-]" if by_alpha else "$g = J/(\\mu R_w)$ [-]"
-    plots._label(ax, x_label, f"{name} [-]")
+    plots._label(ax, x_label, f"{_SYMBOLS.get(name, name)} [-]")
     plots._legend(ax, 2 if by_variant else 3)
     return ax
 
 
 def _draw_bounds(ax: Axes, rows: Sequence[tuple[Finding, Measure]], by_alpha: bool) -> None:
     """Draw the bound where it holds, as a line of steps."""
-    limits = sorted(
-        {(one.alpha if by_alpha else one.g, m.bound) for one, m in rows if m.bound is not None}
-    )
-    if not limits:
+    held = [(one, m.bound) for one, m in rows if m.bound is not None]
+    if not held:
         return
-    x, y = np.array(limits).T
+    x, y = np.array(sorted({(one.alpha if by_alpha else one.g, bound) for one, bound in held})).T
+    names = {one.variant for one, _ in held}
+    some = len(names) == 1 and len({one.variant for one, _ in rows}) > 1 and "" not in names
+    label = f"bound, {names.pop()}".replace("_", " ") if some else "bound"
+    style: dict[str, Any] = {"color": plots._GREY, "lw": 0.8, "label": label}
     if len(set(y)) == 1:
-        ax.axhline(y[0], ls="--", color=plots._GREY, lw=0.8, label="bound")
+        ax.axhline(y[0], ls="--", **style)
     else:
-        ax.plot(x, y, "--", color=plots._GREY, lw=0.8, label="bound", drawstyle="steps-pre")
+        ax.plot(x, y, "--", drawstyle="steps-post", **style)
 
 
 def _colour(number: int) -> str:
@@ -446,7 +466,10 @@ def _marker(number: int) -> str:
 
 
 def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
-    """Draw the change of B with the radius of the body against g R_w/L, and the law fitted to it.
+    """Draw the change of B with the radius of the body, and the law fitted to it.
+
+    The law is |dB|/B = c sqrt(g R_w/L); the body of the default settings, of radius L_0, has an
+    error of its own.
 
     Parameters
     ----------
@@ -462,21 +485,22 @@ def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
     """
     ax = ax or plots._new_axes(0.8)
     rows = [one for one in result.findings if one.data and math.isfinite(one.measures[0].value)]
-    for i, alpha in enumerate(sorted({one.alpha for one in rows})):
-        points = [
-            (one.g / one.data["L/R_w"], max(one.measures[0].value, _SMALLEST_DRAWN))
-            for one in rows
-            if one.alpha == alpha
-        ]
-        x, y = np.array(points).T
-        ax.plot(x, y, _marker(i), color=_colour(i), ms=3.5, label=rf"$\alpha$ = {alpha:g}")
-    ratios = [one.g / one.data["L/R_w"] for one in rows]
-    ratio = np.geomspace(min(ratios), max(ratios))
+
+    def law(one: Finding) -> float:
+        L, L_0 = one.data["L/R_w"], one.data["L/R_w of the default"]
+        return math.sqrt(one.g / L) - math.sqrt(one.g / L_0)
+
+    for i, alpha in enumerate(dict.fromkeys(one.alpha for one in rows)):
+        mine = [one for one in rows if one.alpha == alpha]
+        y = [max(one.measures[0].value, _SMALLEST_DRAWN) for one in mine]
+        style: dict[str, Any] = {"color": _colour(i), "ms": 3.5, "label": rf"$\alpha$ = {alpha:g}"}
+        ax.plot([law(one) for one in mine], y, _marker(i), **style)
+    ends = np.array([f(law(one) for one in rows) for f in (min, max)])
     factor = result.facts["factor c, median"]
-    law = rf"${factor:.2g}\,\sqrt{{g R_w/L}}$"
-    ax.plot(ratio, factor * np.sqrt(ratio), "--", color=plots._GREY, lw=0.9, label=law)
+    style = {"color": plots._GREY, "lw": 0.9, "label": rf"law, $c$ = {factor:.2g}"}
+    ax.plot(ends, factor * ends, "--", **style)
     ax.set_xscale("log")
     ax.set_yscale("log")
-    plots._label(ax, "$g R_w/L$ [-]", "|dB|/B [-]")
+    plots._label(ax, r"$\sqrt{g R_w/L} - \sqrt{g R_w/L_0}$ [-]", f"{_SYMBOLS['|dB|/B']} [-]")
     plots._legend(ax, 2)
     return ax
