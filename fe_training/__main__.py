@@ -56,6 +56,7 @@ the table:
   A          cos(theta_1) - cos(theta_2), of the ends of the contact arc
   B          F_v/(mu R_w T), the force that opens one half of the cut
   |J-2F_h|/J the evidence: zero in exact equilibrium of a large body
+  -2dU/dc    J/(mu R_w) once more, by a true shift of the tip; with --shift
   time       seconds since the configuration before
 
 exit codes: 0 all reached, 1 some not reached, 2 bad input or a package missing
@@ -153,6 +154,7 @@ def _parser() -> argparse.ArgumentParser:
         default="standard",
         help="how fine the mesh is; standard unless given",
     )
+    add("--shift", action="store_true", help="J once more, by a true shift of the tip: -2 dU/dc")
     add("--json", metavar="FILE", help="write the records with their profiles to this file")
     add("--plot", metavar="FILE", help="draw mesh, J and stress ahead (.png, .pdf, .svg)")
     shape["epilog"] = _VERIFY_EXAMPLE
@@ -254,10 +256,16 @@ def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
     from .solve import solve, solve_path
 
     if options.g is None:
-        name, value = _wanted(options)[0]
-        return [solve(options.alpha, **{name: value}, settings=settings)]
+        record = solve(
+            options.alpha,
+            distance=options.distance,
+            insertion=options.insertion,
+            settings=settings,
+            shift=options.shift,
+        )
+        return [record]
     if len(options.g) == 1:
-        return solve_path(options.alpha, options.g, settings)
+        return solve_path(options.alpha, options.g, settings, shift=options.shift)
     from tqdm import tqdm
 
     with tqdm(total=len(options.g), desc=f"alpha = {options.alpha:g}", unit="conf") as bar:
@@ -267,7 +275,7 @@ def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
                 bar.set_postfix_str(f"g = {record.energy_release_rate:.4g}")
             bar.update()
 
-        return solve_path(options.alpha, options.g, settings, report)
+        return solve_path(options.alpha, options.g, settings, report, options.shift)
 
 
 def _is_reached(record: Record) -> bool:
@@ -280,12 +288,12 @@ def _write(text: str) -> None:
 
 def _table(records: Sequence[Record], wanted: Sequence[tuple[str, float]]) -> str:
     """Return the records as lines of aligned columns, numbers to their right ends."""
-    head = ("g", "delta/R_w", "A", "B", "|J-2F_h|/J", "time [s]", "outcome")
+    head = ("g", "delta/R_w", "A", "B", "|J-2F_h|/J", "-2dU/dc", "time [s]", "outcome")
     rows = [head]
     for record, (name, value) in zip(records, wanted, strict=True):
         outcome = record.outcome.name.lower().replace("_", " ")
         if not _is_reached(record):
-            rows.append((f"{value:.4g}" if name == "g" else "-", *5 * ("-",), outcome))
+            rows.append((f"{value:.4g}" if name == "g" else "-", *6 * ("-",), outcome))
             continue
         rows.append(
             (
@@ -294,6 +302,7 @@ def _table(records: Sequence[Record], wanted: Sequence[tuple[str, float]]) -> st
                 f"{record.arc:.4f}",
                 f"{record.normal_load:.4f}",
                 f"{record.force_mismatch:.1e}",
+                f"{record.energy_release_rate_shift:.4g}".replace("nan", "-"),
                 f"{record.wall_time:.1f}",
                 outcome,
             )

@@ -90,6 +90,17 @@ class Body:
         """Return a body of the same material, elements and support on another mesh."""
         return Body(mesh, *self._options)
 
+    def at(self, points: Array) -> Body:
+        """Return the body with the vertices of its mesh elsewhere, all else as it is."""
+        moved = self.on(MeshTri(points, self.mesh.t))
+        moved.polar, moved.face, moved.held, moved.free = (
+            self.polar,
+            self.face,
+            self.held,
+            self.free,
+        )
+        return moved
+
     def displacement_shape(self, local: Array) -> Array:
         """Return the displacement shape functions at local coordinates (2, ...), last axis."""
         count = self.connectivity.shape[1]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from . import observe, path
 from .adapt import determinant_scatter, refined
 from .body import Body
-from .energy_release import domain_integral, strain_energy
+from .energy_release import domain_integral, plateau, strain_energy
 from .equilibrium import Control, NewtonOutcome, State, control_value, equilibrate, undeformed
 from .mesh import MeshSpec, crack_mesh
 from .path import PathStalledError, Steps
@@ -32,10 +32,16 @@ _CORRECTIONS = 8
 #: Elements are split from this share of the scatter that is allowed, so that the next ones are
 #: not due at once.
 _SPLIT_SHARE = 0.5
+#: Face nodes on either side of an end of the contact that belong to it.
+_END = 5
+#: Refinements after one step; what is left is refined after the next one.
+_ROUNDS = 2
 #: No element becomes shorter than this, relative to its distance from the tip.
 _SMALLEST = 0.02
 #: Elements nearer than this to the tip, in notch radii, are not split: the notch is no crack tip.
 _NOTCH_RINGS = 4.0
+#: Half the way that the tip moves for the rate of a true shift [R_w].
+_TIP_SHIFT = 0.01
 #: Share of B that a truncation at L takes away is taken to be this times sqrt(g R_w / L); assumed,
 #: not yet measured with this engine.
 TRUNCATION_FACTOR = 0.5
@@ -68,8 +74,8 @@ class Settings:
         Relative error allowed in the wanted value of g.
     """
 
-    sectors: int = 24
-    contact_spacing: float = 0.1
+    sectors: int = 28
+    contact_spacing: float = 0.05
     notch_radius: float = 5e-4
     outer_radius: float = 1e7
     bulk: float = 1.0
@@ -124,21 +130,36 @@ class Cut:
 
     def _adapted(self, state: State, control: Control) -> State | None:
         """Return the state on a mesh refined for it, or None if the mesh is fine enough."""
-        allowed = self.settings.scatter
-        scatter = determinant_scatter(self.body, state)
-        scatter[~self._splittable()] = 0.0
-        if scatter.max() < allowed:
-            return None
-        split = np.flatnonzero(scatter > _SPLIT_SHARE * allowed)
+        allowed, adapted = self.settings.scatter, None
+        for _ in range(_ROUNDS):
+            scatter = np.where(self._splittable(), determinant_scatter(self.body, state), 0.0)
+            if scatter.max() < allowed:
+                break
+            split = np.flatnonzero(scatter > _SPLIT_SHARE * allowed)
+            state = adapted = self._split(state, control, split)
+        return adapted
+
+    def sharpened(self, state: State, control: Control) -> State:
+        """Return the state on a mesh whose elements at the ends of the contact are split."""
+        body, touching = self.body, np.flatnonzero(state.active.wire)
+        ends = [i for end in (touching[0], touching[-1]) for i in range(end - _END, end + _END + 1)]
+        near = np.zeros(len(body.nodes), dtype=bool)
+        near[body.face[np.clip(ends, 0, len(body.face) - 1)]] = True
+        for _ in range(2):  # the elements there, and their neighbours
+            split = np.flatnonzero(near[body.connectivity].any(axis=1))
+            near[body.connectivity[split]] = True
+        return self._split(state, control, split)
+
+    def _split(self, state: State, control: Control, elements: NDArray[np.int64]) -> State:
+        """Split elements, and let the body settle at the same value of a control."""
         value = control_value(self.body, state, control)
-        body, carried = refined(self.body, state, split)
+        body, carried = refined(self.body, state, elements)
         solver = make_solver(self.settings.solver)
-        # the element at the end of the contact may fold for an iteration: full steps pass it
         found, outcome = equilibrate(body, carried, control, value, solver, guarded=False)
         if outcome is not NewtonOutcome.CONVERGED:
             raise PathStalledError(state, control, value, outcome)
         self.body, self.solver = body, solver
-        return found
+        return replace(found, step=state.step)
 
     def _splittable(self) -> NDArray[np.bool_]:
         """Return the elements that are neither in the notch nor very small."""
@@ -184,8 +205,29 @@ class Cut:
         """Return J/(mu R_w) on the nearest support."""
         return domain_integral(self.body, state, *self.supports(state)[0])
 
-    def record(self, state: State) -> Record:
-        """Return the record of an equilibrium."""
+    def shifted_energy_release_rate(self, state: State) -> float:
+        """Return -2 dU/dc: the crack tip moves by a little, the wire stays, the body settles.
+
+        Everything around the tip and the contact moves rigidly in the reference configuration; the
+        elements farther out give way.
+        """
+        body, (inner, outer) = self.body, self.supports(state)[-1]
+        q, position = plateau(body, inner, outer), float(state.centre[0])
+        energies = []
+        for shift in (_TIP_SHIFT, -_TIP_SHIFT):
+            points = body.mesh.p.copy()
+            points[0] += shift * q
+            moved = body.at(points)
+            found, outcome = equilibrate(
+                moved, replace(state, tangent=None), Control.POSITION, position, self.solver
+            )
+            if outcome is not NewtonOutcome.CONVERGED:
+                raise PathStalledError(state, Control.POSITION, position, outcome)
+            energies.append(strain_energy(moved, found))
+        return -(energies[0] - energies[1]) / _TIP_SHIFT
+
+    def record(self, state: State, target: float = np.nan, shift: bool = False) -> Record:
+        """Return the record of an equilibrium; with the rate of a true shift if asked for."""
         body = self.body
         J, *across = [domain_integral(body, state, *s) for s in self.supports(state)]
         arc = observe.contact_arc(body, state)
@@ -196,6 +238,7 @@ class Cut:
         record = Record(
             alpha=body.alpha,
             outcome=Outcome.CONVERGED,
+            target=target,
             energy_release_rate=J,
             distance=control_value(body, state, Control.DISTANCE),
             insertion=float(state.centre[0]),
@@ -206,6 +249,7 @@ class Cut:
             strain_energy=strain_energy(body, state),
             tip_position=float(body.nodes[tip, 0] + state.u[tip, 0]),
             energy_release_rate_across=tuple(across),
+            energy_release_rate_shift=self.shifted_energy_release_rate(state) if shift else np.nan,
             residual=state.residual,
             iterations=state.iterations,
             min_determinant=path.least_determinant(body, state, body.beyond_notch),
@@ -227,12 +271,13 @@ class Cut:
             return record
         return replace(record, outcome=Outcome.OUTSIDE_EVIDENCE)
 
-    def failure(self, error: PathStalledError) -> Record:
+    def failure(self, error: PathStalledError, target: float = np.nan) -> Record:
         """Return the record of a configuration that was not reached."""
         folded = error.outcome is NewtonOutcome.CONVERGED
         return Record(
             alpha=self.body.alpha,
             outcome=Outcome.FOLDED if folded else Outcome.STALLED,
+            target=target,
             reason=str(error),
             unknowns=int(self.body.free.sum()),
             mesh=self.spec.as_dict(),

@@ -78,6 +78,8 @@ class State:
         Residual relative to the contact force.
     iterations : int
         Newton iterations that led here.
+    step : float
+        Size of the next step of `control` on the path that led here, in its own unit; 0 if none.
     """
 
     u: Array
@@ -90,6 +92,7 @@ class State:
     control: Control | None = None
     residual: float = np.nan
     iterations: int = 0
+    step: float = 0.0
 
     @property
     def horizontal_force(self) -> float:
@@ -298,13 +301,16 @@ def predicted(body: Body, state: State, control: Control, target: float) -> Stat
 def _admissible(body: Body, state: State, step: Array, move: Array) -> float:
     """Return the length of a step that leaves every element a share of its area.
 
-    Each quadrature point may lose at most most of its determinant in one step; the determinant is
+    It is needed where steps are large, as while the wire is raised.  At high toughness it does
+    harm: elements at the end of the contact that fold for an iteration make it crawl.  Each
+    quadrature point may lose at most most of its determinant in one step; the determinant is
     smooth in the length, so a few halvings suffice.
     """
     watched = body.beyond_notch
     u, centre = state.u, state.centre
     before = ogden.volume_change(body.displacement_gradient(u, watched, centre)) + 1.0
-    floor = np.minimum(_LEAST_SHARE * before, _LEAST_SHARE)
+    # where an element is folded already, all that is asked for is that it stays near
+    floor = np.where(before > 0.0, np.minimum(_LEAST_SHARE * before, _LEAST_SHARE), before - 1.0)
     t = 1.0
     for _ in range(_HALVINGS):
         there = body.displacement_gradient(u + t * step, watched, centre + t * move)
@@ -385,12 +391,14 @@ def equilibrate(
             tangent = State(
                 move.u / rate, move.p / rate, axis / rate, state.active, move.force, state.normal
             )
-            t = _admissible(body, state, step.u, length * axis) if guarded else 1.0
+            t = 1.0
+            if guarded:
+                t = _admissible(body, state, step.u, length * axis)
             u, centre = state.u + t * step.u, state.centre + t * length * axis
             force = state.force + t * step.force
             active = contact.updated(body, u, centre, state.active, force)
             settled = active.same(state.active) and t == 1.0
-            if not settled and norm < RESIDUAL_BOUND:
+            if not settled and t == 1.0 and norm < RESIDUAL_BOUND:
                 if active.key() in seen:
                     return state, NewtonOutcome.CYCLED
                 seen.add(active.key())

@@ -21,8 +21,6 @@ Array = NDArray[np.float64]
 #: Rings beyond this radius carry only the smooth far field and may grow faster.
 _NEAR_FIELD = 6.0
 _LARGEST_RATIO = 2.0
-#: An element may be this much longer per unit distance from the contact.
-_GROWTH = 0.35
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +41,8 @@ class MeshSpec:
     contact_spacing : float
         Largest element on that part, relative to the distance from the tip and never above half
         of this fraction of the wire radius.
+    growth : float
+        An element may be this much longer per unit distance from the contact [-].
     """
 
     notch_radius: float = 5e-4
@@ -51,6 +51,7 @@ class MeshSpec:
     contact_start: float = 0.0
     contact_end: float = 3.0
     contact_spacing: float = 0.05
+    growth: float = 0.35
 
     def refined(self, factor: float = 2.0) -> MeshSpec:
         """Return the specification with elements smaller by `factor`."""
@@ -136,5 +137,5 @@ def _too_long(mesh: MeshTri, spec: MeshSpec) -> NDArray[np.int64]:
     wanted = spec.contact_spacing * np.clip(face, spec.notch_radius, 0.5)
     r = np.hypot(*centre)
     outside = r < 4.0 * spec.notch_radius
-    wanted = np.where(outside, np.inf, wanted + _GROWTH * distance)
+    wanted = np.where(outside, np.inf, wanted + spec.growth * distance)
     return np.flatnonzero(longest > 1.5 * wanted)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,11 @@ from .body import Body
 from .equilibrium import Control, NewtonOutcome, State, control_value, equilibrate
 from .solvers import LinearSolver
 
-#: A state in which an element has lost this much of its area has folded: it is another branch.
-LEAST_DETERMINANT = 0.1
-_QUICK = 7
-_GROWTH = 1.4
+#: A state with an element turned inside out by more than this is another branch.  Single elements
+#: at the end of the contact fold a little.
+LEAST_DETERMINANT = -2.0
+_QUICK = 6
+_GROWTH = 1.3
 _SMALLEST_SHARE = 1 / 64
 _SECANTS = 12
 
@@ -58,7 +59,7 @@ class Steps:
     Parameters
     ----------
     first, largest : float
-        In the unit of the control.
+        In the unit of the control; a path that goes on keeps the size that it had.
     """
 
     first: float
@@ -68,7 +69,9 @@ class Steps:
 def _attempt(
     body: Body, state: State, control: Control, target: float, solver: LinearSolver
 ) -> tuple[State | None, NewtonOutcome]:
-    found, outcome = equilibrate(body, state, control, target, solver)
+    # forces are prescribed at high toughness, where the guard would make Newton's method crawl
+    guarded = control is not Control.FORCE
+    found, outcome = equilibrate(body, state, control, target, solver, guarded=guarded)
     if outcome is not NewtonOutcome.CONVERGED:
         return None, outcome
     if least_determinant(body, found, body.beyond_notch) < LEAST_DETERMINANT:
@@ -106,7 +109,8 @@ def follow(
     """
     here = control_value(body, state, control)
     sign = np.sign(end - here)
-    size = steps.first
+    size = min(state.step, steps.largest) if state.control is control else 0.0
+    size = size or steps.first
     while sign * (end - here) > 1e-12 * max(1.0, abs(end)):
         there = here + sign * size
         if sign * (end - there) < 0.2 * size:
@@ -120,6 +124,7 @@ def follow(
         state, here = found, there
         if state.iterations <= _QUICK:
             size = min(size * _GROWTH, steps.largest)
+        state = replace(state, step=size)
         yield state
 
 

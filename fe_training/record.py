@@ -62,6 +62,8 @@ class Record:
         Strain-stiffening exponent [-].
     outcome : Outcome
         How the computation ended.
+    target : float
+        The J/(mu R_w) that was wanted, nan where the configuration was chosen otherwise.
     reason : str
         The last message of a failed computation, empty otherwise.
     energy_release_rate : float
@@ -113,6 +115,7 @@ class Record:
 
     alpha: float
     outcome: Outcome
+    target: float = np.nan
     reason: str = ""
     energy_release_rate: float = np.nan
     distance: float = np.nan

@@ -30,10 +30,11 @@ _APPROACH = Steps(0.1, 0.2)
 #: Step along the cut after the tip is touched, relative to the way gone so far.
 _PUSH_FIRST, _PUSH_LARGEST = 0.08, 0.15
 #: Half width of the fine part of a far-field mesh [R_w].
-_WINDOW = 2.2
+_WINDOW = 1.6
 _TRIES = 4
-#: The far-field contact is meshed more finely: there 2 F_h is a small difference of large forces.
-_FAR_FIELD_SPACING = 0.5
+#: Far from the tip 2 F_h is a small difference of large forces: elements grow more slowly away from
+#: the contact, and those at its ends are split this often.
+_FAR_FIELD_GROWTH, _SHARPENINGS = 0.25, 1
 #: Below this g the wire is raised afresh without trying the indentation branch.
 _SURELY_FAR = 0.3
 
@@ -68,7 +69,8 @@ def far_field_cut(alpha: float, depth: float, settings: Settings) -> Cut:
         sectors=settings.sectors,
         contact_start=max(depth - _WINDOW, 0.0),
         contact_end=depth + _WINDOW,
-        contact_spacing=_FAR_FIELD_SPACING * settings.contact_spacing,
+        contact_spacing=settings.contact_spacing,
+        growth=_FAR_FIELD_GROWTH,
     )
     return Cut(alpha, spec, replace(settings, polar=0.0))
 
@@ -89,7 +91,11 @@ def indentation_states(cut: Cut) -> Iterator[State]:
 
 
 def _indentation(
-    alpha: float, targets: list[float], settings: Settings, report: Callable[[Record], None]
+    alpha: float,
+    targets: list[float],
+    settings: Settings,
+    report: Callable[[Record], None],
+    shift: bool,
 ) -> tuple[list[Record], list[float]]:
     """Return the records at rising values of g, and the values below the start of the branch."""
     cut = indentation_cut(alpha, settings)
@@ -103,17 +109,18 @@ def _indentation(
             below.append(waiting.popleft())
         while waiting:
             state = cut.at(state, waiting[0])
-            waiting.popleft()
-            records.append(cut.record(state))
+            records.append(cut.record(state, waiting.popleft(), shift))
             report(records[-1])
     except PathStalledError as error:
-        for _ in waiting:
-            records.append(cut.failure(error))
+        for g in waiting:
+            records.append(cut.failure(error, g))
             report(records[-1])
     return records, below
 
 
-def _far_field(alpha: float, g: float, settings: Settings, ratio: float) -> tuple[Record, float]:
+def _far_field(
+    alpha: float, g: float, settings: Settings, ratio: float, shift: bool
+) -> tuple[Record, float]:
     """Return the record at a small g, and J over its linear-elastic estimate.
 
     `ratio` is that quotient for a neighbouring g; it places the mesh.
@@ -139,13 +146,16 @@ def _far_field(alpha: float, g: float, settings: Settings, ratio: float) -> tupl
                     cut.solver,
                     settings.tolerance,
                 )
-                record = cut.record(state)
+                for _ in range(_SHARPENINGS):
+                    state = cut.sharpened(state, Control.POSITION)
+                record = cut.record(state, g, shift)
                 linear = far_field_wedge(record.distance).energy_release_rate
                 return record, float(record.energy_release_rate / linear)
             depth = wanted
         except PathStalledError as error:
-            return cut.failure(error), ratio
-    failed = Record(alpha=alpha, outcome=Outcome.NOT_REACHED, reason=f"g = {g:.6g}")
+            return cut.failure(error, g), ratio
+    reason = f"g = {g:.6g}: no mesh had the wire in its fine part after {_TRIES} tries"
+    failed = Record(alpha=alpha, outcome=Outcome.NOT_REACHED, target=g, reason=reason)
     return failed, ratio
 
 
@@ -154,6 +164,7 @@ def solve_path(
     g: Iterable[float],
     settings: Settings | None = None,
     report: Callable[[Record], None] | None = None,
+    shift: bool = False,
 ) -> list[Record]:
     """Return the configurations at several energy release rates, J = g mu R_w.
 
@@ -167,6 +178,8 @@ def solve_path(
         Mesh, body, solver.
     report : callable, optional
         Called with each record as soon as it is finished.
+    shift : bool
+        Add -2 dU/dc by a true shift of the tip, at the cost of two more equilibria each.
 
     Returns
     -------
@@ -185,11 +198,11 @@ def solve_path(
     report = report or (lambda record: None)
     far = [value for value in targets if value < _SURELY_FAR]
     near = targets[len(far) :]
-    inner, below = _indentation(alpha, near, settings, report) if near else ([], [])
+    inner, below = _indentation(alpha, near, settings, report, shift) if near else ([], [])
     outer: list[Record] = []
     ratio = 1.0
     for value in far + below:
-        record, ratio = _far_field(alpha, value, settings, ratio)
+        record, ratio = _far_field(alpha, value, settings, ratio, shift)
         outer.append(record)
         report(record)
     return outer + inner
@@ -202,6 +215,7 @@ def solve(
     distance: float | None = None,
     insertion: float | None = None,
     settings: Settings | None = None,
+    shift: bool = False,
 ) -> Record:
     """Return one configuration.
 
@@ -217,6 +231,8 @@ def solve(
         wanted position x_w of the wire's centre relative to the reference tip [R_w].
     settings : Settings, optional
         Mesh, body, solver.
+    shift : bool
+        Add -2 dU/dc by a true shift of the tip, at the cost of two more equilibria.
 
     Returns
     -------
@@ -233,26 +249,31 @@ def solve(
             f"solve needs exactly one of g, distance and insertion; {len(given)} were given"
         )
     if g is not None:
-        return solve_path(alpha, [g], settings)[0]
+        return solve_path(alpha, [g], settings, shift=shift)[0]
     settings = settings or Settings()
     alpha = _checked("alpha", alpha, *ALPHA_RANGE, "[-]")
     if distance is not None:
         distance = _checked("distance", distance, 1.0 + 1e-3, 1e3, "[R_w]")
-        return _solve_to(alpha, Control.DISTANCE, distance, -(distance - 0.5), settings)
+        return _solve_to(alpha, Control.DISTANCE, distance, -(distance - 0.5), settings, shift)
     assert insertion is not None
     insertion = _checked("insertion", insertion, -1e3, 1e4, "[R_w]")
-    return _solve_to(alpha, Control.POSITION, insertion, insertion, settings)
+    return _solve_to(alpha, Control.POSITION, insertion, insertion, settings, shift)
 
 
 def _solve_to(
-    alpha: float, control: Control, target: float, position: float, settings: Settings
+    alpha: float,
+    control: Control,
+    target: float,
+    position: float,
+    settings: Settings,
+    shift: bool,
 ) -> Record:
     """Return the record at a target of a control; `position` is about where the wire will be."""
     if position < _START - 0.3:
         cut = far_field_cut(alpha, -position, settings)
         try:
             state = cut.raised(position)
-            return cut.record(cut.last(state, control, target, _APPROACH))
+            return cut.record(cut.last(state, control, target, _APPROACH), shift=shift)
         except PathStalledError as error:
             return cut.failure(error)
     cut = indentation_cut(alpha, settings)
@@ -262,7 +283,7 @@ def _solve_to(
         for state in indentation_states(cut):
             if sign * (control_value(cut.body, state, control) - target) >= 0:
                 start = previous or state
-                return cut.record(cut.last(start, control, target, _APPROACH))
+                return cut.record(cut.last(start, control, target, _APPROACH), shift=shift)
             previous = state
     except PathStalledError as error:
         return cut.failure(error)

@@ -23,6 +23,7 @@ def record(alpha, g, sectors=24, **changed):
     points = 40 + round(100 * g) % 200
     values = {
         "alpha": alpha,
+        "target": g,
         "outcome": Outcome.CONVERGED,
         "energy_release_rate": g * (1 + 1e-5 * math.sin(1e3 * g)),
         "distance": (1.0 + 1.0 / (1.0 + alpha * g)) * mesh,

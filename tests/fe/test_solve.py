@@ -17,7 +17,7 @@ COARSE = Settings(sectors=16, contact_spacing=0.15, notch_radius=5e-3, outer_rad
 @pytest.fixture(scope="module")
 def path() -> list[Record]:
     """Return a path that crosses both branches."""
-    return solve_path(5.0, [2.0, 0.02, 0.8], COARSE)
+    return solve_path(5.0, [2.0, 0.02, 0.8], COARSE, shift=True)
 
 
 def test_records_come_in_rising_order_at_the_values_wanted(path):
@@ -38,6 +38,16 @@ def test_the_configurational_balance_holds(path):
     near = path[1:]
     assert all(r.force_mismatch < 5e-3 for r in near)
     assert all(r.support_spread < 5e-3 for r in near)
+
+
+def test_each_record_says_what_was_wanted(path):
+    assert [r.target for r in path] == [0.02, 0.8, 2.0]
+
+
+def test_a_true_shift_of_the_tip_releases_the_same_energy(path):
+    # a discretised body: its energy knows the mesh, as J and 2 F_h do
+    for r in path:
+        assert r.energy_release_rate_shift == pytest.approx(r.energy_release_rate, rel=0.01)
 
 
 def test_the_far_field_is_the_linear_wedge(path):
