@@ -155,6 +155,11 @@ def _parser() -> argparse.ArgumentParser:
         help="how fine the mesh is; standard unless given",
     )
     add("--shift", action="store_true", help="J once more, by a true shift of the tip: -2 dU/dc")
+    add(
+        "--mesh-error",
+        action="store_true",
+        help="B on a coarser mesh too; the difference goes into the JSON file (with --g)",
+    )
     add("--json", metavar="FILE", help="write the records with their profiles to this file")
     add("--plot", metavar="FILE", help="draw mesh, J and stress ahead (.png, .pdf, .svg)")
     shape["epilog"] = _VERIFY_EXAMPLE
@@ -262,10 +267,13 @@ def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
             insertion=options.insertion,
             settings=settings,
             shift=options.shift,
+            mesh_error=options.mesh_error,
         )
         return [record]
     if len(options.g) == 1:
-        return solve_path(options.alpha, options.g, settings, shift=options.shift)
+        return solve_path(
+            options.alpha, options.g, settings, shift=options.shift, mesh_error=options.mesh_error
+        )
     from tqdm import tqdm
 
     with tqdm(total=len(options.g), desc=f"alpha = {options.alpha:g}", unit="conf") as bar:
@@ -275,7 +283,9 @@ def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
                 bar.set_postfix_str(f"g = {record.energy_release_rate:.4g}")
             bar.update()
 
-        return solve_path(options.alpha, options.g, settings, report, options.shift)
+        return solve_path(
+            options.alpha, options.g, settings, report, options.shift, options.mesh_error
+        )
 
 
 def _is_reached(record: Record) -> bool:

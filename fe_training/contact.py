@@ -22,8 +22,6 @@ _PULL, _PENETRATION = 1e-9, 1e-11
 #: The symmetry plane is watched this far behind the wire [R_w]; further out the truncated body
 #: may bend below it by an amount of no consequence.
 _PLANE_REACH = 100.0
-#: New nodes per iteration, relative to those that touch already.
-_GROWTH = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,25 +99,8 @@ def updated(body: Body, u: Array, centre: Array, active: ActiveSet, force: Array
     position = body.nodes[body.face] + u[body.face]
     penetrates = np.hypot(*(position - centre).T) < 1.0 - _PENETRATION
     holds = active.any & (force > pull)
-    new = _nearest(penetrates & ~active.any, active.wire)
-    wire = np.where(active.any, holds & active.wire, new)
+    wire = np.where(active.any, holds & active.wire, penetrates)
     near = body.nodes[body.face, 0] > -_PLANE_REACH
     below = (position[:, 1] < -_PENETRATION) & near & ~body.held[body.face, 1]
     plane = np.where(active.any, holds & active.plane, below & ~penetrates)
     return ActiveSet(wire, plane)
-
-
-def _nearest(new: Flags, touching: Flags) -> Flags:
-    """Return at most a share of the new nodes, those next to the ones that touch already.
-
-    A set that is too large pulls the face onto the wire and folds the small elements at its end;
-    one that is too small merely grows further in the next step.
-    """
-    allowed = max(2, int(_GROWTH * touching.sum()))
-    if not touching.any() or new.sum() <= allowed:
-        return new
-    held, candidates = np.flatnonzero(touching), np.flatnonzero(new)
-    distance = np.abs(candidates[:, None] - held).min(axis=1)
-    chosen = np.zeros_like(new)
-    chosen[candidates[np.argsort(distance, kind="stable")[:allowed]]] = True
-    return chosen

@@ -25,9 +25,9 @@ from .path import PathStalledError, Steps
 from .record import Outcome, Record
 from .solvers import LinearSolver, make_solver
 
-_RAISE = Steps(0.1, 0.15)
+_RAISE = Steps(0.15, 0.35)
 #: Largest relative change of the horizontal force in one step.
-_FORCE_STEP = 0.14
+_FORCE_STEP = 0.26
 _CORRECTIONS = 8
 #: Elements are split from this share of the scatter that is allowed, so that the next ones are
 #: not due at once.
@@ -36,6 +36,8 @@ _SPLIT_SHARE = 0.5
 _END = 5
 #: Refinements after one step; what is left is refined after the next one.
 _ROUNDS = 2
+#: Refinements in a row that are tried where a path stalls.
+_RESCUES = 2
 #: No element becomes shorter than this, relative to its distance from the tip.
 _SMALLEST = 0.02
 #: Elements nearer than this to the tip, in notch radii, are not split: the notch is no crack tip.
@@ -82,7 +84,7 @@ class Settings:
     polar: float = 1.0
     scatter: float = 0.2
     solver: str | None = None
-    tolerance: float = 1e-4
+    tolerance: float = 1e-3
 
     def refined(self, factor: float = 1.5) -> Settings:
         """Return settings with elements smaller by `factor`."""
@@ -117,25 +119,41 @@ class Cut:
         return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
 
     def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:
-        """Yield the states of a path, the mesh adapted on the way."""
-        adapted: State | None = state
-        while adapted is not None:
-            state, adapted = adapted, None
-            for reached in path.follow(self.body, state, control, end, steps, self.solver):
-                adapted = self._adapted(reached, control)
-                if adapted is not None:
-                    yield adapted
-                    break
-                yield reached
+        """Yield the states of a path, the mesh adapted on the way.
+
+        Where the path stalls, the mesh is refined once more, and the path tried again.
+        """
+        rescues = 0
+        while True:
+            try:
+                for reached in path.follow(self.body, state, control, end, steps, self.solver):
+                    adapted = self._adapted(reached, control)
+                    state, rescues = adapted or reached, 0
+                    yield state
+                    if adapted is not None:
+                        break
+                else:
+                    return
+            except PathStalledError:
+                rescues += 1
+                share = _SPLIT_SHARE ** (1 + rescues)
+                split = self._scattered(state, share * self.settings.scatter)
+                if rescues > _RESCUES or not len(split) or control is Control.HEIGHT:
+                    raise
+                state = replace(self._split(state, control, split), step=steps.first)
+
+    def _scattered(self, state: State, least: float) -> NDArray[np.int64]:
+        """Return the elements whose determinant scatters by more, as far as they may be split."""
+        scatter = determinant_scatter(self.body, state)
+        return np.flatnonzero((scatter > least) & self._splittable())
 
     def _adapted(self, state: State, control: Control) -> State | None:
         """Return the state on a mesh refined for it, or None if the mesh is fine enough."""
         allowed, adapted = self.settings.scatter, None
         for _ in range(_ROUNDS):
-            scatter = np.where(self._splittable(), determinant_scatter(self.body, state), 0.0)
-            if scatter.max() < allowed:
+            if not len(self._scattered(state, allowed)):
                 break
-            split = np.flatnonzero(scatter > _SPLIT_SHARE * allowed)
+            split = self._scattered(state, _SPLIT_SHARE * allowed)
             state = adapted = self._split(state, control, split)
         return adapted
 

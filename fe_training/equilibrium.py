@@ -23,7 +23,7 @@ from .solvers import LinearSolver
 Array = NDArray[np.float64]
 
 #: Residual relative to the contact force, at which a state counts as in equilibrium.
-RESIDUAL_GOAL = 1e-10
+RESIDUAL_GOAL = 1e-8
 #: Rounding at large stretch can hold the residual above the goal; a residual that stagnates below
 #: this bound is accepted, and recorded.
 RESIDUAL_BOUND = 1e-6

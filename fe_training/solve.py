@@ -25,7 +25,7 @@ from .reference import far_field_wedge, far_field_wedge_from_energy_release_rate
 ALPHA_RANGE, G_RANGE = (1.0, 20.0), (1e-5, 1e4)
 
 #: Reference position at which the wire is raised on the indentation branch [R_w].
-_START = -1.2
+_START = -2.2
 _APPROACH = Steps(0.1, 0.2)
 #: Step along the cut after the tip is touched, relative to the way gone so far.
 _PUSH_FIRST, _PUSH_LARGEST = 0.08, 0.15
@@ -36,7 +36,9 @@ _TRIES = 4
 #: the contact, and those at its ends are split this often.
 _FAR_FIELD_GROWTH, _SHARPENINGS = 0.25, 1
 #: Below this g the wire is raised afresh without trying the indentation branch.
-_SURELY_FAR = 0.3
+_SURELY_FAR = 0.15
+#: The mesh that mesh errors are measured with, and how near in g the two solutions have to be.
+_COARSER, _SAME_G = 1.5, 1e-5
 
 
 def _checked(name: str, value: float, low: float, high: float, unit: str) -> float:
@@ -55,7 +57,7 @@ def indentation_cut(alpha: float, settings: Settings) -> Cut:
         notch_radius=settings.notch_radius,
         outer_radius=settings.outer_radius,
         sectors=settings.sectors,
-        contact_end=2.6,
+        contact_end=3.6,
         contact_spacing=settings.contact_spacing,
     )
     return Cut(alpha, spec, settings)
@@ -165,6 +167,7 @@ def solve_path(
     settings: Settings | None = None,
     report: Callable[[Record], None] | None = None,
     shift: bool = False,
+    mesh_error: bool = False,
 ) -> list[Record]:
     """Return the configurations at several energy release rates, J = g mu R_w.
 
@@ -180,6 +183,9 @@ def solve_path(
         Called with each record as soon as it is finished.
     shift : bool
         Add -2 dU/dc by a true shift of the tip, at the cost of two more equilibria each.
+    mesh_error : bool
+        Add the relative difference of F_v from the same configuration on a mesh 1.5 times coarser,
+        which is solved first; both then meet g within 1e-5.
 
     Returns
     -------
@@ -196,6 +202,18 @@ def solve_path(
     alpha = _checked("alpha", alpha, *ALPHA_RANGE, "[-]")
     targets = sorted(_checked("g", value, *G_RANGE, "[-]") for value in g)
     report = report or (lambda record: None)
+    if mesh_error:
+        settings = replace(settings, tolerance=min(settings.tolerance, _SAME_G))
+        coarser = solve_path(alpha, targets, settings.refined(1.0 / _COARSER))
+        loads = {record.target: record.vertical_force for record in coarser}
+
+        def compared(record: Record) -> Record:
+            error = abs(loads[record.target] / record.vertical_force - 1.0)
+            return replace(record, mesh_error=error)
+
+        tell = report
+        records = solve_path(alpha, targets, settings, lambda record: tell(compared(record)), shift)
+        return [compared(record) for record in records]
     far = [value for value in targets if value < _SURELY_FAR]
     near = targets[len(far) :]
     inner, below = _indentation(alpha, near, settings, report, shift) if near else ([], [])
@@ -216,6 +234,7 @@ def solve(
     insertion: float | None = None,
     settings: Settings | None = None,
     shift: bool = False,
+    mesh_error: bool = False,
 ) -> Record:
     """Return one configuration.
 
@@ -233,6 +252,9 @@ def solve(
         Mesh, body, solver.
     shift : bool
         Add -2 dU/dc by a true shift of the tip, at the cost of two more equilibria.
+    mesh_error : bool
+        Add the relative difference of F_v on a coarser mesh at the same g, see :func:`solve_path`;
+        only where g is given.
 
     Returns
     -------
@@ -249,7 +271,9 @@ def solve(
             f"solve needs exactly one of g, distance and insertion; {len(given)} were given"
         )
     if g is not None:
-        return solve_path(alpha, [g], settings, shift=shift)[0]
+        return solve_path(alpha, [g], settings, shift=shift, mesh_error=mesh_error)[0]
+    if mesh_error:
+        raise InputError("mesh_error compares two meshes at one g; give g instead")
     settings = settings or Settings()
     alpha = _checked("alpha", alpha, *ALPHA_RANGE, "[-]")
     if distance is not None:

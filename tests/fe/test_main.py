@@ -44,7 +44,7 @@ def canned(monkeypatch):
     """Return a function that makes `solve_path` answer with given records."""
 
     def answer(*records):
-        def solve_path(alpha, g, settings=None, report=None, shift=False):
+        def solve_path(alpha, g, settings=None, report=None, shift=False, mesh_error=False):
             for record in records:
                 if report:
                     report(record)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,19 @@ def test_a_true_shift_of_the_tip_releases_the_same_energy(path):
     # a discretised body: its energy knows the mesh, as J and 2 F_h do
     for r in path:
         assert r.energy_release_rate_shift == pytest.approx(r.energy_release_rate, rel=0.01)
+
+
+def test_the_mesh_error_is_the_difference_of_two_meshes():
+    told = []
+    (record,) = solve_path(9.0, [0.7], COARSE, told.append, mesh_error=True)
+    assert [t.mesh_error for t in told] == [record.mesh_error]
+    coarser = solve(9.0, g=0.7, settings=replace(COARSE.refined(1 / 1.5), tolerance=1e-5))
+    assert coarser.unknowns < record.unknowns
+    expected = abs(coarser.normal_load / record.normal_load - 1)
+    assert record.mesh_error == pytest.approx(expected, rel=1e-6)
+    assert 0 < record.mesh_error < 0.01
+    with pytest.raises(InputError, match="g instead"):
+        solve(9.0, distance=2.0, settings=COARSE, mesh_error=True)
 
 
 def test_the_far_field_is_the_linear_wedge(path):
