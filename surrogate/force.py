@@ -72,7 +72,7 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
         What is cut and with which wire, in SI units.
     model : str, default "eq13"
         "eq13" for Eq. (13), "high-toughness" for Eq. (10), "low-toughness" for Eq. (12),
-        "friction-free" for Eq. (15), or "power-law" for Eq. (9) with the exponents of Table 1,
+        "friction-free" for Eq. (15), or "eq9" for Eq. (9) with the exponents of Table 1,
         linear in alpha between them.
 
     Returns
@@ -87,17 +87,17 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     UnknownModelError
         If there is no such model.
     DomainError
-        If alpha is outside Table 1, 2 to 9, and the model is "power-law".
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9".
 
     Notes
     -----
     Range of validity: >> is taken to mean a factor of 10 (`MUCH_GREATER`). Outside its range a
     model answers all the same, with `in_domain` False. "eq13": any. "high-toughness" and
-    "power-law": Gamma_o >= 10 mu R_w and Gamma_o > 0. "low-toughness": Gamma_o <= mu R_w.
+    "eq9": Gamma_o >= 10 mu R_w and Gamma_o > 0. "low-toughness": Gamma_o <= mu R_w.
     "friction-free": xi = 0, or 10 xi <= 1 and 10 xi mu <= tau_w.
 
     Limits at xi, tau_w, mu, R_w or Gamma_o = 0 are exact, at all of them together too; only
-    "power-law", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are both
+    "eq9", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are both
     0 and n > 1, is then given no friction, as for any Gamma_o = 0.
 
     References
@@ -163,7 +163,7 @@ def dissipative_force(
     UnknownModelError
         If there is no such model.
     DomainError
-        If alpha is outside Table 1, 2 to 9, and the model is "power-law".
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9".
 
     Notes
     -----
@@ -177,7 +177,7 @@ def dissipative_force(
     --------
     >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.4f}")
     46.6400
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='power-law'):.4f}")
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
     1.5136
     """
     chosen = force_model(model)

@@ -102,7 +102,7 @@ class ClosedForm(ForceModel):
 class PowerLaw(ForceModel):
     """Eq. (9) with the exponents of Table 1: A = 0, 2 B = g^n(alpha)."""
 
-    name: str = "power-law"
+    name: str = "eq9"
     equation: str = "Eq. (9)"
     domain: str = (
         f"Gamma_o >= {MUCH_GREATER:g} mu R_w, alpha from {min(TABLE_1):g} to {max(TABLE_1):g}"

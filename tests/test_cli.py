@@ -165,7 +165,7 @@ def test_version(capsys):
         (f"identify {model_file('paam-wire-cutting.csv')}", "shear modulus is missing"),
         (f"regime {SCENE} --wire-radius 1mm --threshold 0.5", "more than 0.5"),
         ("identify --example --confidence 95", "0.95 for 95 %"),
-        ("identify --example --model power-law", "not linear"),
+        ("identify --example --model eq9", "not linear"),
         ("identify --example --plot fit.doc", "choose .png, .pdf or .svg"),
         ("identify --example --plot missing/fit.png", "cannot be written"),
         ("identify --example --material missing.json", "missing.json cannot be read"),

@@ -311,7 +311,7 @@ def test_power_law_is_accurate_at_every_size(alpha):
             stiffness = mpmath.mpf(mu) * mpmath.mpf(radius)
             exact = float(mpmath.mpf(0.1) * stiffness * (mpmath.mpf(gamma) / stiffness) ** n)
         scene = Scene(mu, gamma, radius, 0.1, stiffening_exponent=alpha)
-        friction = surrogate.cutting_force(scene, "power-law").friction
+        friction = surrogate.cutting_force(scene, "eq9").friction
         assert friction == pytest.approx(exact, rel=1e-13, abs=1e-323), (gamma, mu, radius)
 
 

@@ -31,7 +31,7 @@ def test_parts_of_the_general_force():
             GAMMA * surrogate.friction_free_relative_force(RADIUS, SCENE.wear_length),
         ),
         (
-            "power-law",
+            "eq9",
             GAMMA
             + MU
             * RADIUS
@@ -74,8 +74,8 @@ def test_dissipative_force_is_the_force_less_the_toughness(model):
         ("friction-free", Scene(1.0, 1.0, 1.0, 0.1, 1.0), True),
         ("friction-free", Scene(1.0, 1.0, 1.0, 0.2, 10.0), False),
         ("friction-free", Scene(1.0, 1.0, 1.0, 0.1, 0.9), False),
-        ("power-law", Scene(1.0, 10.0, 1.0), True),
-        ("power-law", Scene(1.0, 9.0, 1.0), False),
+        ("eq9", Scene(1.0, 10.0, 1.0), True),
+        ("eq9", Scene(1.0, 9.0, 1.0), False),
         ("eq13", Scene(1.0, 9.0, 1.0), True),
     ],
 )
@@ -94,9 +94,9 @@ def test_domain_is_told_point_by_point():
 def test_power_law_needs_a_tabulated_stiffening_exponent(alpha):
     scene = Scene(MU, GAMMA, RADIUS, XI, TAU, alpha)
     with pytest.raises(surrogate.DomainError, match=r"stiffening_exponent.*Table 1"):
-        cutting_force(scene, "power-law")
+        cutting_force(scene, "eq9")
     with pytest.raises(surrogate.DomainError, match=r"alpha.*Table 1"):
-        dissipative_force(20.0, alpha, 0.1, 0.0, model="power-law")
+        dissipative_force(20.0, alpha, 0.1, 0.0, model="eq9")
     cutting_force(scene)
 
 
@@ -170,6 +170,6 @@ def test_power_law_friction_of_a_vanishing_radius_or_modulus(thing, alpha, frict
     # xi Gamma_o g^(n-1) with g infinite: n = 1.18 diverges, n = 1 stays, n = 0.96 vanishes.
     quantities = {"shear_modulus": MU, "toughness": GAMMA, "wire_radius": RADIUS, thing: 0.0}
     scene = Scene(**quantities, friction_coefficient=XI, stiffening_exponent=alpha)
-    assert cutting_force(scene, "power-law").friction == friction
+    assert cutting_force(scene, "eq9").friction == friction
     frictionless = Scene(**quantities, stiffening_exponent=alpha)
-    assert cutting_force(frictionless, "power-law").friction == 0.0
+    assert cutting_force(frictionless, "eq9").friction == 0.0

@@ -101,8 +101,8 @@ def test_force_never_falls_as_any_quantity_grows(scene, model, name, more):
 def test_power_law_grows_with_toughness_and_friction_and_falls_with_stiffening(scene, name, by):
     scene = replace(scene, stiffening_exponent=2.0 + 0.3 * (scene.stiffening_exponent - 2.0))
     grown = replace(scene, **{name: getattr(scene, name) * by})
-    before = cutting_force(scene, "power-law").friction
-    after = cutting_force(grown, "power-law").friction
+    before = cutting_force(scene, "eq9").friction
+    after = cutting_force(grown, "eq9").friction
     if name != "stiffening_exponent":
         assert after >= before
     elif scene.dimensionless_toughness > 1.0:  # g^n falls with n, which falls with alpha
