@@ -88,7 +88,7 @@ class Body:
 
     def on(self, mesh: MeshTri) -> Body:
         """Return a body of the same material, elements and support on another mesh."""
-        return Body(mesh, *self._options)
+        return type(self)(mesh, *self._options)
 
     def at(self, points: Array) -> Body:
         """Return the body with the vertices of its mesh elsewhere, all else as it is."""

@@ -106,11 +106,15 @@ class Cut:
         The mesh.
     settings : Settings
         Bulk term and solver.
+    body : Body, optional
+        A body of another shape, on a mesh of its own.
     """
 
-    def __init__(self, alpha: float, spec: MeshSpec, settings: Settings) -> None:
+    def __init__(
+        self, alpha: float, spec: MeshSpec, settings: Settings, body: Body | None = None
+    ) -> None:
         self.spec, self.settings = spec, settings
-        self.body = Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
+        self.body = body or Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
         self.solver: LinearSolver = make_solver(settings.solver)
         self._clock = time.perf_counter()
 

@@ -85,7 +85,57 @@ def crack_mesh(spec: MeshSpec) -> MeshTri:
     >>> float(mesh.p[1].min())
     0.0
     """
-    mesh = _half_annulus(_ring_radii(spec), spec.sectors)
+    return _fine_under_contact(_half_annulus(_ring_radii(spec), spec.sectors), spec)
+
+
+def block_mesh(spec: MeshSpec, half_length: float) -> MeshTri:
+    """Return the triangulated half block, |X| up to half its length, Y up to `spec.outer_radius`.
+
+    Rings around the notch go over into squares; blocks of elements that grow along X follow at
+    both ends.
+
+    Parameters
+    ----------
+    spec : MeshSpec
+        Its outer radius is the half height of the block; the sectors must be a multiple of four,
+        so that the corners of the square are nodes.
+    half_length : float
+        Half the length of the block, above its half height [R_w].
+
+    Returns
+    -------
+    skfem.MeshTri
+
+    Examples
+    --------
+    >>> spec = MeshSpec(notch_radius=0.01, outer_radius=10.0, sectors=12)
+    >>> mesh = block_mesh(spec, half_length=40.0)
+    >>> mesh.p.max(axis=1).tolist(), mesh.p.min(axis=1).tolist()
+    ([40.0, 10.0], [-40.0, 0.0])
+    """
+    height = spec.outer_radius
+    ring = _half_annulus(_ring_radii(spec), spec.sectors)
+    r = np.hypot(*ring.p)
+    share = np.log(np.maximum(r / spec.notch_radius, 1.0)) / np.log(height / spec.notch_radius)
+    points = ring.p * (1.0 + share**4 * (r / np.abs(ring.p).max(axis=0) - 1.0))
+    outer = np.abs(r / height - 1.0) < 1e-9
+    on_side = outer & (np.abs(np.abs(points) / height - 1.0) < 1e-9)
+    points = np.where(on_side, np.sign(points) * height, points)
+    points[1][ring.p[1] == 0.0] = 0.0
+    points = np.ascontiguousarray(points)
+    side = np.sort(points[1, points[0] == height])
+    steps = [height]
+    width = float(np.diff(side).max())
+    while steps[-1] < half_length:
+        steps.append(steps[-1] + width)
+        width *= 1.0 + np.pi / spec.sectors
+    along = height + (np.array(steps) - height) * (half_length - height) / (steps[-1] - height)
+    along[0], along[-1] = height, half_length
+    ends = MeshTri.init_tensor(along, side), MeshTri.init_tensor(-along[::-1], side)
+    return _fine_under_contact(MeshTri(points, ring.t) + ends[0] + ends[1], spec)
+
+
+def _fine_under_contact(mesh: MeshTri, spec: MeshSpec) -> MeshTri:
     for _ in range(12):
         marked = _too_long(mesh, spec)
         if not len(marked):

@@ -1,0 +1,288 @@
+"""A wire in a block of finite height: what the size of a specimen and its sides do to a cut.
+
+The block has half height H above the cut, its length is many times that.  The end ahead of the tip
+does not move along the cut, the end behind it is free.  Its side at Y = H
+
+- slides on rollers (u_y = 0, no shear),
+- is free, or
+- is glued (u = 0).
+
+With rollers and with a free side the cut is steady: the block looks the same from every tip.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import astuple, dataclass
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+from skfem import Basis
+
+from .body import Body
+from .cut import Cut, Settings
+from .equilibrium import Control, State
+from .errors import InputError
+from .mesh import MeshSpec, block_mesh
+from .path import PathStalledError
+from .record import Record
+from .solve import far_field_cut
+
+#: Half length of a block over its half height, beyond the wire: end effects fall as
+#: exp(-pi X/(2 H)) or faster.
+_LENGTH = 5.0
+#: Half width of the fine part of the mesh under the wire [R_w].
+_WINDOW = 1.6
+
+
+class Side(Enum):
+    """How the side of a block at Y = H is held."""
+
+    ROLLERS = "rollers"
+    FREE = "free"
+    GLUED = "glued"
+
+
+class Block(Body):
+    """The half block as a body; `hold` is the value of a :class:`Side`."""
+
+    def _number_unknowns(self, basis: Basis, hold: str) -> None:
+        facets = self.mesh.boundary_facets()
+        middle = self.mesh.p[:, self.mesh.facets[:, facets]].mean(axis=1)
+        height, end = self.mesh.p[1].max(), self.mesh.p[0].max()
+        side = middle[1] > height * (1.0 - 1e-9)
+        ahead, behind = (sign * middle[0] > end * (1.0 - 1e-9) for sign in (1.0, -1.0))
+        ligament = (middle[1] == 0.0) & (middle[0] > 0.0)
+        face = np.unique(
+            basis.get_dofs(facets=facets[~(side | ahead | behind | ligament)]).flatten()
+        )
+        self.face = face[self._from_tip(face)]
+        held = np.zeros((len(self.nodes), 2), dtype=bool)
+        nodes = {
+            name: basis.get_dofs(facets=facets[which]).flatten()
+            for name, which in (("side", side), ("ahead", ahead), ("ligament", ligament))
+        }
+        held[nodes["ligament"], 1] = True
+        held[nodes["ahead"], 0] = True
+        held[nodes["side"], 1] = hold != Side.FREE.value
+        held[nodes["side"], 0] |= hold == Side.GLUED.value
+        self.held = held
+        self.free = np.concatenate([~held.ravel(), np.ones(len(self.pressure_places), dtype=bool)])
+
+
+def block_cut(
+    alpha: float, half_height: float, side: Side, depth: float, settings: Settings
+) -> Cut:
+    """Return a block on a mesh that is fine under a wire at the distance `depth` from the tip.
+
+    Parameters
+    ----------
+    alpha : float
+        Strain-stiffening exponent [-].
+    half_height : float
+        H [R_w].
+    side : Side
+        How the side is held.
+    depth : float
+        Distance of the wire behind the reference tip [R_w]; negative ahead of it.
+    settings : Settings
+        Mesh, bulk term, solver; the outer radius is not used.
+    """
+    spec = MeshSpec(
+        notch_radius=min(max(settings.notch_radius, 5e-4 * depth), 0.02),
+        outer_radius=half_height,
+        sectors=4 * round(settings.sectors / 4),
+        contact_start=max(depth - _WINDOW, 0.0),
+        contact_end=max(depth, 1.0) + _WINDOW,
+        contact_spacing=settings.contact_spacing,
+        growth=0.25,
+    )
+    mesh = block_mesh(spec, _LENGTH * half_height + max(depth, 0.0))
+    body = Block(mesh, alpha, settings.bulk, side.value)
+    return Cut(alpha, spec, settings, body)
+
+
+def raised(cut: Cut, depth: float) -> State:
+    """Return the state with the wire raised at `depth`, the ends of its contact made fine."""
+    return cut.sharpened(cut.raised(-depth), Control.POSITION)
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One configuration of the study.
+
+    Parameters
+    ----------
+    alpha : float
+        Strain-stiffening exponent [-].
+    half_height : float
+        H [R_w]; infinite for the large body.
+    side : str
+        A value of :class:`Side`; "none" for the large body.
+    depth : float
+        Distance of the wire behind the reference tip [R_w].
+    """
+
+    alpha: float
+    half_height: float
+    side: str
+    depth: float
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What came out of a case; nan where it was not reached.
+
+    Parameters
+    ----------
+    case : Case
+    energy_release_rate : float
+        g = J/(mu R_w) [-].
+    distance : float
+        delta [R_w].
+    arc, normal_load : float
+        A and B [-].
+    force_mismatch : float
+        |J - 2 F_h|/J [-].
+    unknowns : int
+    outcome : str
+        Name of an outcome of :class:`fe_training.record.Outcome`.
+    """
+
+    case: Case
+    energy_release_rate: float
+    distance: float
+    arc: float
+    normal_load: float
+    force_mismatch: float
+    unknowns: int
+    outcome: str
+
+
+#: Head of the file of results: names with units, in the order of the fields.
+COLUMNS = (
+    "alpha_-",
+    "half_height_R_w",
+    "side",
+    "depth_R_w",
+    "energy_release_rate_mu_R_w",
+    "distance_R_w",
+    "arc_-",
+    "normal_load_mu_R_w",
+    "force_mismatch_-",
+    "unknowns",
+    "outcome",
+)
+#: The meshes of the study: a compromise, |J - 2 F_h|/J stays below 3e-3.
+STUDY_SETTINGS = Settings(sectors=20, contact_spacing=0.08)
+_HEIGHTS = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+_DEPTHS = (0.8, 1.2, 1.7, 2.5, 4.0, 6.0, 10.0, 15.0, 20.0)
+_SPOT_HEIGHTS, _SPOT_DEPTHS = (10.0, 50.0, 200.0), (1.2, 2.5, 6.0)
+#: A wire is put no deeper than this share of H: J falls like an exponential beyond.
+_DEEPEST = 0.7
+
+
+def cases() -> list[Case]:
+    """Return the cases of the study: alpha = 2 in full, 5 and 9 at single heights."""
+    steady = (Side.ROLLERS.value, Side.FREE.value)
+    wanted: dict[float, tuple[tuple[float, ...], tuple[float, ...]]] = {
+        2.0: (_HEIGHTS, _DEPTHS),
+        5.0: (_SPOT_HEIGHTS, _SPOT_DEPTHS),
+        9.0: (_SPOT_HEIGHTS, _SPOT_DEPTHS),
+    }
+    found = []
+    for alpha, (heights, depths) in wanted.items():
+        found += [Case(alpha, math.inf, "none", depth) for depth in depths]
+        found += [
+            Case(alpha, height, side, depth)
+            for height in heights
+            for side in steady
+            for depth in depths
+            if depth <= _DEEPEST * height
+        ]
+    return found
+
+
+def solve_case(case: Case, settings: Settings = STUDY_SETTINGS) -> Result:
+    """Return the result of one case; a wire that could not be raised is a result as well."""
+    if math.isinf(case.half_height):
+        cut = far_field_cut(case.alpha, case.depth, settings)
+    else:
+        side = Side(case.side)
+        cut = block_cut(case.alpha, case.half_height, side, case.depth, settings)
+    try:
+        record = cut.record(raised(cut, case.depth))
+    except PathStalledError as error:
+        record = cut.failure(error)
+    return _result(case, record)
+
+
+def _result(case: Case, record: Record) -> Result:
+    return Result(
+        case,
+        record.energy_release_rate,
+        record.distance,
+        record.arc,
+        record.normal_load,
+        record.force_mismatch,
+        record.unknowns,
+        record.outcome.name,
+    )
+
+
+def add_result(file: Path, result: Result) -> None:
+    """Append one result to the file of results, so that it survives whatever comes next."""
+    new = not file.exists() or not file.stat().st_size
+    with file.open("a", newline="", encoding="utf-8") as out:
+        writer = csv.writer(out)
+        if new:
+            writer.writerow(COLUMNS)
+        writer.writerow([*astuple(result.case), *astuple(result)[1:]])
+        out.flush()
+        os.fsync(out.fileno())
+
+
+def read_results(file: Path) -> list[Result]:
+    """Return the results in a file.
+
+    Raises
+    ------
+    InputError
+        If the file is not one of results, or a line is damaged.
+    """
+    with file.open(newline="", encoding="utf-8") as lines:
+        head, *rows = csv.reader(lines)
+    if tuple(head) != COLUMNS:
+        raise InputError(f"{file} is no file of specimens: its head is {','.join(head)[:80]!r}")
+    return [_read(file, number, row) for number, row in enumerate(rows, 2)]
+
+
+def _read(file: Path, number: int, row: Sequence[str]) -> Result:
+    try:
+        if len(row) != len(COLUMNS):
+            raise ValueError(f"{len(row)} cells, {len(COLUMNS)} are wanted")
+        alpha, height, side, depth, g, distance, arc, load, mismatch, unknowns, outcome = row
+        return Result(
+            Case(float(alpha), float(height), side, float(depth)),
+            energy_release_rate=float(g),
+            distance=float(distance),
+            arc=float(arc),
+            normal_load=float(load),
+            force_mismatch=float(mismatch),
+            unknowns=int(unknowns),
+            outcome=outcome,
+        )
+    except ValueError as error:
+        raise InputError(
+            f"{file}, line {number}: {error}; delete the line to solve it again"
+        ) from None
+
+
+def missing(file: Path) -> Iterator[Case]:
+    """Yield the cases of the study that the file has no line for."""
+    done = {result.case for result in read_results(file)} if file.exists() else set()
+    yield from (case for case in cases() if case not in done)
