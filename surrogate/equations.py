@@ -493,6 +493,11 @@ def table_1_exponent(alpha: Any) -> Any:
     return where(alpha < a1, first, second)
 
 
+def table_1_slope(alpha: Any) -> Any:
+    (a0, n0), (a1, n1), (a2, n2) = TABLE_1.items()
+    return where(alpha < a1, (n1 - n0) / (a1 - a0), (n2 - n1) / (a2 - a1))
+
+
 def _power_law(g: Any, xi: Any, n: Any) -> Any:
     with np.errstate(all="ignore"):
         force = xi * np.power(dense(g), dense(n))

@@ -21,7 +21,13 @@ from typing import Any
 import numpy as np
 
 from surrogate.elementwise import exp, log, product, where
-from surrogate.equations import TABLE_1, TABULATED_STIFFENING, table_1_exponent
+from surrogate.equations import (
+    DIMENSIONLESS_TOUGHNESS,
+    TABLE_1,
+    TABULATED_STIFFENING,
+    table_1_exponent,
+    table_1_slope,
+)
 from surrogate.errors import UnknownModelError
 from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
@@ -43,6 +49,7 @@ class ForceModel(ABC):
     equation: str
     domain: str
     stiffening: Quantity  # the alpha that the model accepts
+    g: Quantity = DIMENSIONLESS_TOUGHNESS  # and the g
 
     @abstractmethod
     def arc(self, g: Any, alpha: Any) -> Any:
@@ -51,6 +58,18 @@ class ForceModel(ABC):
     @abstractmethod
     def normal_load(self, g: Any, alpha: Any) -> Any:
         """Return B = F_v/(mu R_w T) [-]."""
+
+    @abstractmethod
+    def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return dA/dg and dA/dalpha [-], from above where A bends."""
+
+    @abstractmethod
+    def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return dB/dg and dB/dalpha [-], from above where B bends."""
+
+    def contact_std(self, g: Any, alpha: Any) -> tuple[Any, Any] | None:
+        """Return the standard deviations of A and B [-], or None where the model knows none."""
+        return None
 
     @abstractmethod
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
@@ -87,6 +106,12 @@ class ClosedForm(ForceModel):
     def normal_load(self, g: Any, alpha: Any) -> Any:
         return 0.5 * (self.load_2 + self.load_2_slope * g)
 
+    def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        return 0.0, 0.0
+
+    def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        return 0.5 * self.load_2_slope, 0.0
+
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         # 2 R_w mu B = load_2 mu R_w + load_2_slope Gamma_o needs no g.
         friction = self.load_2_slope * (xi * gamma) if self.load_2_slope else 0.0
@@ -114,6 +139,18 @@ class PowerLaw(ForceModel):
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
         return 0.5 * np.power(g, table_1_exponent(alpha))
+
+    def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        return 0.0, 0.0
+
+    def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return the slopes of g^n/2, infinite in g where g = 0 and n < 1."""
+        n = table_1_exponent(alpha)
+        with np.errstate(all="ignore"):  # of 0 and of numbers whose power overflows
+            log_g = log(g)
+            in_g = 0.5 * n * where(n == 1.0, 1.0, exp((n - 1.0) * log_g))
+            in_alpha = 0.5 * exp(n * log_g) * log_g * table_1_slope(alpha)
+        return in_g, where(g == 0.0, 0.0, in_alpha)
 
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return friction xi Gamma_o g^(n - 1) and no wear; no friction where Gamma_o = 0."""
