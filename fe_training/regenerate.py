@@ -51,6 +51,8 @@ examples:
       on the workers of a Dask scheduler, which share the folder of the store
   regen-surrogate --no-solve
       the data set of the rows that are finished
+  regen-surrogate --continue-from models/campaign.h5 --jobs 2
+      go on with an unfinished data set where its store is gone, on another machine say
   regen-surrogate --check 10
       solve ten rows of the shipped data again and compare
 
@@ -118,6 +120,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--scheduler", metavar="ADDRESS", help="of a Dask scheduler, such as tcp://10.0.0.1:8786")
     add("--store", metavar="DIR", help="finished rows (output/campaign)")
     add("--adopt", action="store_true", help="take over a store of another design")
+    add("--continue-from", metavar="FILE", help="put the rows of this data set into the store first")
     add("--out", metavar="DIR", help="where the files go (models; with --quick beside the store)")
     add("--seed", type=int, default=0, metavar="N", help="of the random sample of --check (0)")
     return parser
@@ -152,6 +155,8 @@ def _regenerate(options: argparse.Namespace) -> int:
         _say_plan(design, plan(design, store, chosen, not options.no_retry), workers)
         return 0
     with store.opened(design, options.adopt):
+        if options.continue_from:
+            _refill(design, store, options.continue_from)
         if not options.no_solve:
             _campaign(design, store, chosen, workers, not options.no_retry)
         data = _data_set(design, store, out)
@@ -190,6 +195,13 @@ def _chosen(design: CampaignDesign, only: Sequence[str]) -> list[Configuration]:
         for one in design.configurations()
         if all(getattr(one, name) in values for name, values in allowed.items())
     ]
+
+
+def _refill(design: CampaignDesign, store: Store, file: str) -> None:
+    from .dataset import load_campaign
+    from .refill import refill
+
+    _say(f"    {refill(store, design, load_campaign(file))} rows taken from {file}")
 
 
 def _campaign(

@@ -339,3 +339,15 @@ def test_the_shipped_readme_has_the_marks():
     text = (ROOT / "models" / "README.md").read_text(encoding="utf-8")
     assert text.count("<!-- campaign report: begin -->") == 1
     assert text.count("<!-- campaign report: end -->") == 1
+
+
+def test_going_on_from_a_data_set_whose_store_is_gone(made_up, at, tmp_path, capsys):
+    main([*at, "--only", "alpha=5"])
+    capsys.readouterr()
+    elsewhere = ["--store", str(tmp_path / "new"), "--out", str(tmp_path / "new-models")]
+    half = str(tmp_path / "models" / "campaign.h5")
+    assert main([*elsewhere, "--continue-from", half]) == 0
+    out = capsys.readouterr().out
+    assert f"12 rows taken from {half}" in out
+    assert "12 of 24 configurations to solve" in out
+    assert "12 of 12 points" in out
