@@ -120,7 +120,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--scheduler", metavar="ADDRESS", help="of a Dask scheduler, such as tcp://10.0.0.1:8786")
     add("--store", metavar="DIR", help="finished rows (output/campaign)")
     add("--adopt", action="store_true", help="take over a store of another design")
-    add("--continue-from", metavar="FILE", help="put the rows of this data set into the store first")
+    add("--continue-from", metavar="FILE", help="put this data set's rows into the store first")
     add("--out", metavar="DIR", help="where the files go (models; with --quick beside the store)")
     add("--seed", type=int, default=0, metavar="N", help="of the random sample of --check (0)")
     return parser
