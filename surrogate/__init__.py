@@ -38,6 +38,7 @@ from surrogate.scene import Scene
 if TYPE_CHECKING:
     from surrogate.data import Material, Measurements, read_material, read_measurements
     from surrogate.design import Design, design_radii
+    from surrogate.gradient import ForceGradient, force_gradient
     from surrogate.identification import Identification, identify
     from surrogate.plots import plot_identification
 
@@ -48,6 +49,7 @@ __all__ = [
     "CuttingForce",
     "Design",
     "DomainError",
+    "ForceGradient",
     "Identification",
     "InputError",
     "Material",
@@ -61,6 +63,7 @@ __all__ = [
     "design_radii",
     "dissipative_force",
     "far_field_energy_release_rate",
+    "force_gradient",
     "fracto_cohesive_transition_radius",
     "friction_free_relative_force",
     "general_force",
@@ -81,10 +84,12 @@ __all__ = [
 # What a force does not need is loaded at first use, which keeps `import surrogate` quick.
 _LAZY = {
     "Design": "design",
+    "ForceGradient": "gradient",
     "Identification": "identification",
     "Material": "data",
     "Measurements": "data",
     "design_radii": "design",
+    "force_gradient": "gradient",
     "identify": "identification",
     "plot_identification": "plots",
     "read_material": "data",

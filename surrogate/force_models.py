@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.elementwise import exp, log, product, where
+from surrogate.elementwise import exp, log, product, quotient, ratio, where
 from surrogate.equations import (
     DIMENSIONLESS_TOUGHNESS,
     TABLE_1,
@@ -78,6 +78,30 @@ class ForceModel(ABC):
         Exact where g is infinite or 0/0, which `arc` and `normal_load` cannot be.
         """
 
+    def gradient(
+        self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
+    ) -> tuple[Any, ...]:
+        """Return the derivatives of F_ss/T by the six quantities, in their order.
+
+        By the chain rule through g; nan where g is infinite or 0/0, but for those by xi and tau_w.
+        """
+        g, relative = quotient(gamma, mu, radius), ratio(wear, mu)
+        (arc_g, arc_alpha), (load_g, load_alpha) = (
+            self.arc_slopes(g, alpha),
+            self.normal_load_slopes(g, alpha),
+        )
+        arc, load = self.arc(g, alpha), self.normal_load(g, alpha)
+        # g dA/dg and g dB/dg vanish with g, even where a slope becomes infinite there.
+        arc_log, load_log = (where(g == 0.0, 0.0, g * slope) for slope in (arc_g, load_g))
+        return (
+            2.0 * (product(radius, xi, load - load_log) - _times(relative * radius, arc_log)),
+            1.0 + 2.0 * (_times(relative, arc_g) + _times(xi, load_g)),
+            2.0 * (wear * (arc - arc_log) + product(xi, mu, load - load_log)),
+            self.terms(mu, gamma, radius, 1.0, 0.0, alpha)[0],
+            self.terms(mu, gamma, radius, 0.0, 1.0, alpha)[1],
+            2.0 * (_times(wear * radius, arc_alpha) + _times(product(radius, xi, mu), load_alpha)),
+        )
+
     @abstractmethod
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return whether the model holds."""
@@ -118,6 +142,18 @@ class ClosedForm(ForceModel):
         if self.load_2:
             friction = friction + self.load_2 * product(radius, xi, mu)
         return friction, self.arc_2 * (wear * radius) if self.arc_2 else 0.0
+
+    def gradient(
+        self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
+    ) -> tuple[Any, ...]:
+        return (
+            self.load_2 * (xi * radius),
+            1.0 + self.load_2_slope * xi,
+            self.load_2 * (xi * mu) + self.arc_2 * wear,
+            self.load_2_slope * gamma + self.load_2 * (mu * radius),
+            self.arc_2 * radius,
+            0.0,
+        )
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         return self.condition(mu, gamma, radius, xi, wear)
@@ -161,8 +197,37 @@ class PowerLaw(ForceModel):
         friction = product(xi, gamma, power)
         return where((xi == 0.0) | (gamma == 0.0), 0.0, friction), 0.0
 
+    def gradient(
+        self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
+    ) -> tuple[Any, ...]:
+        """Return those of Gamma_o + xi Gamma_o^n (mu R_w)^(1 - n); nan where it has none."""
+        n = table_1_exponent(alpha)
+        excess = n - 1.0
+        with np.errstate(all="ignore"):  # of 0, and of powers that overflow
+            log_mu, log_gamma, log_radius = log(mu), log(gamma), log(radius)
+            log_g = log_gamma - (log_mu + log_radius)
+            power = where(excess == 0.0, 1.0, exp(excess * log_g))
+            in_mu = exp(n * (log_gamma - log_mu) - excess * log_radius)
+            in_radius = exp(n * (log_gamma - log_radius) - excess * log_mu)
+            friction = self.terms(mu, gamma, radius, 1.0, 0.0, alpha)[0]
+            in_alpha = where(friction == 0.0, 0.0, friction * log_g * table_1_slope(alpha))
+        no_change = (xi == 0.0) | (excess == 0.0)
+        return (
+            where(no_change, 0.0, -excess * xi * in_mu),
+            1.0 + where(xi == 0.0, 0.0, n * xi * power),
+            where(no_change, 0.0, -excess * xi * in_radius),
+            friction,
+            0.0,
+            where(xi == 0.0, 0.0, xi * in_alpha),
+        )
+
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         return _high_toughness(mu, gamma, radius, xi, wear)
+
+
+def _times(factor: Any, slope: Any) -> Any:
+    """Return the product, 0 where the factor is 0 and the slope perhaps infinite."""
+    return where(factor == 0.0, 0.0, factor * slope)
 
 
 def _always(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
