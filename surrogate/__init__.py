@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from surrogate.gradient import ForceGradient, force_gradient
     from surrogate.identification import Identification, identify
     from surrogate.plots import plot_identification
+    from surrogate.propagation import UncertainForce, propagate
 
 __version__ = "0.1.0"
 
@@ -56,6 +57,7 @@ __all__ = [
     "Measurements",
     "Regime",
     "Scene",
+    "UncertainForce",
     "UnknownModelError",
     "WirecutError",
     "classify",
@@ -74,6 +76,7 @@ __all__ = [
     "plot_identification",
     "power_law_dissipation",
     "power_law_exponent",
+    "propagate",
     "read_material",
     "read_measurements",
     "relative_force",
@@ -88,10 +91,12 @@ _LAZY = {
     "Identification": "identification",
     "Material": "data",
     "Measurements": "data",
+    "UncertainForce": "propagation",
     "design_radii": "design",
     "force_gradient": "gradient",
     "identify": "identification",
     "plot_identification": "plots",
+    "propagate": "propagation",
     "read_material": "data",
     "read_measurements": "data",
 }

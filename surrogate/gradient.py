@@ -124,4 +124,4 @@ def force_gradient(scene: Scene, model: str = "eq13") -> ForceGradient:
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"
     for name, slope in zip(NAMES, slopes, strict=True):
         defined(f"derivative by {name}", slope, remedy)
-    return ForceGradient(*slopes, model=chosen.name)
+    return ForceGradient(**dict(zip(NAMES, slopes, strict=True)), model=chosen.name)
