@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from surrogate.design import Design, design_radii
     from surrogate.gradient import ForceGradient, force_gradient
     from surrogate.identification import Identification, identify
+    from surrogate.maps import RegimeMap, regime_map
     from surrogate.plots import plot_identification
     from surrogate.propagation import UncertainForce, propagate
 
@@ -56,6 +57,7 @@ __all__ = [
     "Material",
     "Measurements",
     "Regime",
+    "RegimeMap",
     "Scene",
     "UncertainForce",
     "UnknownModelError",
@@ -79,6 +81,7 @@ __all__ = [
     "propagate",
     "read_material",
     "read_measurements",
+    "regime_map",
     "relative_force",
     "transition_radius",
     "wear_transition_radius",
@@ -91,6 +94,7 @@ _LAZY = {
     "Identification": "identification",
     "Material": "data",
     "Measurements": "data",
+    "RegimeMap": "maps",
     "UncertainForce": "propagation",
     "design_radii": "design",
     "force_gradient": "gradient",
@@ -99,6 +103,7 @@ _LAZY = {
     "propagate": "propagation",
     "read_material": "data",
     "read_measurements": "data",
+    "regime_map": "maps",
 }
 
 

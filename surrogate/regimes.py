@@ -1,4 +1,4 @@
-"""Which term of Eq. (13) dominates a cut, and whether the wire touches the crack tip."""
+"""Which term of the force dominates a cut, and whether the wire touches the crack tip."""
 
 from __future__ import annotations
 
@@ -9,13 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.elementwise import apply, product, ratio
+from surrogate.force import cutting_force
+from surrogate.force_models import FORCE_MODELS
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
-from surrogate.validation import ABOVE_HALF, Quantity, one_number
+from surrogate.validation import ABOVE_HALF, FloatOrArray, Quantity, one_number
 
-__all__ = ["CONTACTS", "DOMINANCES", "Regime", "classify"]
+__all__ = [
+    "CONTACTS",
+    "DOMINANCES",
+    "PARTS",
+    "Regime",
+    "classify",
+    "term_shares",
+    "touching_toughness",
+]
 
-DOMINANCES = ("transition", "toughness-and-friction", "wear", "friction-stiffness")
+TRANSITION = "transition"
+DOMINANCES = (TRANSITION, "toughness-and-friction", "wear", "friction-stiffness")
+"""What can dominate by Eq. (13), whose friction has one part of toughness and one of stiffness."""
+
+PARTS = (TRANSITION, "cleavage", "friction", "wear")
+"""What can dominate by other models, whose friction is one term."""
+
 CONTACTS = ("far-field", "indentation")
 
 DOMINANT_SHARE = 2.0 / 3.0
@@ -23,6 +39,9 @@ DOMINANT_SHARE = 2.0 / 3.0
 
 TOUCHING_TOUGHNESS = 1.0
 """g above which the wire touches the crack tip: J > mu R_w, below Eq. (5)."""
+
+SPLIT_MODEL = "eq13"
+"""The model whose terms are `DOMINANCES`."""
 
 THRESHOLD = Quantity(
     "threshold", "", "give a share that only one term can have", lower=ABOVE_HALF, upper=1.0
@@ -37,7 +56,7 @@ class Regime(Record):
     ----------
     dominant : str or ndarray of str
         One of `DOMINANCES`: "toughness-and-friction", "wear", "friction-stiffness", or
-        "transition" where no term dominates.
+        "transition" where no term dominates; one of `PARTS` for other models than Eq. (13).
     contact : str or ndarray of str
         One of `CONTACTS`: "indentation" where the wire touches the crack tip, else "far-field".
     threshold : float
@@ -61,8 +80,8 @@ class Regime(Record):
     threshold: float
 
 
-def classify(scene: Scene, threshold: float = DOMINANT_SHARE) -> Regime:
-    """Return which term of Eq. (13) dominates, and whether the wire touches the crack tip.
+def classify(scene: Scene, threshold: float = DOMINANT_SHARE, model: str = SPLIT_MODEL) -> Regime:
+    """Return which term of the force dominates, and whether the wire touches the crack tip.
 
     Parameters
     ----------
@@ -71,24 +90,32 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE) -> Regime:
     threshold : float, default 2/3
         Share of the force from which a term dominates [-]: more than 0.5, so that only one can,
         up to 1. The default asks for twice as much as the other terms together.
+    model : str, default "eq13"
+        The force model, as in `cutting_force`.
 
     Returns
     -------
     Regime
-        `dominant` is "toughness-and-friction" for (1 + xi) Gamma_o, which the radius does not
-        change, "wear" for 4 tau_w R_w, "friction-stiffness" for 4 xi mu R_w, and "transition"
-        where none reaches the threshold or the force is 0 or overflows. `contact` is
-        "indentation" for Gamma_o > mu R_w and "far-field" otherwise.
+        By Eq. (13), `dominant` is "toughness-and-friction" for (1 + xi) Gamma_o, which the radius
+        does not change, "wear" for 4 tau_w R_w, "friction-stiffness" for 4 xi mu R_w, and
+        "transition" where none reaches the threshold or the force is 0 or overflows. By another
+        model it is "cleavage", "friction" or "wear", the parts of a `CuttingForce`, or
+        "transition". `contact` is "indentation" where g is above the model's own value at which
+        the wire touches the crack tip, 1 where the model has none, and "far-field" otherwise.
 
     Raises
     ------
     InputError
         If `scene` is not a `Scene`, or the threshold not a number above 0.5 and at most 1.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If the model has no answer there.
 
     Notes
     -----
-    Range of validity: that of Eq. (13). The two answers do not depend on each other: the
-    paper's gel is cut by wear while the wire indents the crack tip.
+    Range of validity: that of the model. The two answers do not depend on each other: the paper's
+    gel is cut by wear while the wire indents the crack tip.
 
     References
     ----------
@@ -105,16 +132,67 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE) -> Regime:
     """
     require_scene(scene)
     share = one_number(THRESHOLD, threshold)
+    names = DOMINANCES if model == SPLIT_MODEL else PARTS
+    terms = (0.0, 0.0, 0.0) if model == SPLIT_MODEL else _parts(scene, model)
+    touch = touching_toughness(model, scene.stiffening_exponent)
 
-    def codes(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> tuple[Any, Any]:
-        terms = (gamma + xi * gamma, 4.0 * (wear * radius), 4.0 * product(radius, xi, mu))
-        total = terms[0] + terms[1] + terms[2]
+    def codes(mu: Any, gamma: Any, radius: Any, *others: Any) -> tuple[Any, Any]:
+        xi, wear, _, touch, *parts = others
+        three = _terms(mu, gamma, radius, xi, wear) if model == SPLIT_MODEL else parts
+        total = three[0] + three[1] + three[2]
         # At most one comparison holds; 0/0 and inf/inf are nan, which makes none hold.
-        dominant = sum(i * (ratio(term, total) >= share) for i, term in enumerate(terms, start=1))
-        return dominant, gamma > TOUCHING_TOUGHNESS * (mu * radius)
+        dominant = sum(i * (ratio(term, total) >= share) for i, term in enumerate(three, start=1))
+        return dominant, gamma > touch * (mu * radius)
 
-    dominant, touching = apply(codes, scene.values(), (np.int8, bool))
-    return Regime(_labels(DOMINANCES, dominant), _labels(CONTACTS, touching), share)
+    dominant, touching = apply(codes, (*scene.values(), touch, *terms), (np.int8, bool))
+    return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share)
+
+
+def term_shares(scene: Scene, model: str = SPLIT_MODEL) -> dict[str, FloatOrArray]:
+    """Return the share of the force [-] that each term has, by the names that `classify` uses.
+
+    A share is nan where the force is 0 or overflows.
+
+    Examples
+    --------
+    >>> shares = term_shares(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
+    >>> {name: round(share, 4) for name, share in shares.items()}
+    {'toughness-and-friction': 0.1837, 'wear': 0.8091, 'friction-stiffness': 0.0072}
+    """
+    if model == SPLIT_MODEL:
+        names, arguments = DOMINANCES[1:], scene.values()
+    else:
+        names, arguments = PARTS[1:], _parts(scene, model)
+
+    def shares(*values: Any) -> Any:
+        three = _terms(*values[:5]) if model == SPLIT_MODEL else values
+        total = three[0] + three[1] + three[2]
+        return tuple(ratio(term, total) for term in three)
+
+    found = apply(shares, arguments, (float, float, float))
+    return dict(zip(names, found, strict=True))
+
+
+def touching_toughness(model: str, alpha: FloatOrArray) -> FloatOrArray:
+    """Return g above which the wire touches the crack tip [-]: the model's own, or else 1.
+
+    Examples
+    --------
+    >>> touching_toughness("eq13", 2.0)
+    1.0
+    """
+    own = getattr(FORCE_MODELS.get(model), "touching_toughness", None)
+    return TOUCHING_TOUGHNESS if own is None else own(alpha)
+
+
+def _terms(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any]:
+    """Return the three terms of Eq. (13) [N/m]."""
+    return gamma + xi * gamma, 4.0 * (wear * radius), 4.0 * product(radius, xi, mu)
+
+
+def _parts(scene: Scene, model: str) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
+    force = cutting_force(scene, model=model)
+    return force.cleavage, force.friction, force.wear
 
 
 def _labels(names: tuple[str, ...], codes: Any) -> Any:

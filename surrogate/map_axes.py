@@ -1,0 +1,351 @@
+"""Axes of a regime map: the quantities and groups that can be varied, and the scenes they give.
+
+Every coordinate is a product of powers of the scene's six quantities, so each quantity of a map's
+scenes is c x^p y^q in the map's coordinates x and y. What a map does not give is solved for: with
+g, mu and R_w, for instance, Gamma_o follows. Where only dimensionless groups are given, mu and R_w
+serve as units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surrogate.errors import InputError
+from surrogate.records import Record
+from surrogate.scene import NAMES, QUANTITIES
+from surrogate.validation import SMALLEST, Quantity, one_number, shown
+
+__all__ = ["COORDINATES", "Coordinate", "MapAxis", "Monomial", "coordinate", "map_axis", "resolve"]
+
+MU, GAMMA, RADIUS, XI, WEAR, ALPHA = NAMES
+
+DIMENSIONS = {MU: (1, 0), GAMMA: (1, 1), RADIUS: (0, 1), WEAR: (1, 0)}
+"""Powers of a stress and of a length in what has a dimension."""
+
+DEFAULTS = {XI: 0.0, WEAR: 0.0, ALPHA: 2.0}
+"""What a map takes for quantities that nothing given depends on, as `Scene` does."""
+
+UNITS = (MU, RADIUS)
+"""What is 1 where a map gives dimensionless groups only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate:
+    """A quantity or dimensionless group that a map can be drawn over.
+
+    Parameters
+    ----------
+    quantity : Quantity
+        Name, unit and admissible range.
+    symbol : str
+        As matplotlib's mathematical text, without the dollars.
+    words : str
+        What it is.
+    powers : mapping of str to int
+        Of the scene's quantities that it is the product of.
+    """
+
+    quantity: Quantity
+    symbol: str
+    words: str
+    powers: Mapping[str, int]
+
+    @property
+    def name(self) -> str:
+        """Name, as `regime_map` takes it."""
+        return self.quantity.name
+
+    @property
+    def unit(self) -> str:
+        """Unit in the SI; empty for a group."""
+        return self.quantity.unit
+
+
+def _coordinates() -> Mapping[str, Coordinate]:
+    symbols = (
+        (MU, r"\mu", "shear modulus"),
+        (GAMMA, r"\Gamma_o", "cleavage toughness"),
+        (RADIUS, "R_w", "wire radius"),
+        (XI, r"\xi", "friction coefficient"),
+        (WEAR, r"\tau_w", "wear strength"),
+        (ALPHA, r"\alpha", "stiffening exponent"),
+    )
+    found = [
+        Coordinate(quantity, symbol, words, MappingProxyType({name: 1}))
+        for quantity, (name, symbol, words) in zip(QUANTITIES, symbols, strict=True)
+    ]
+    for name, symbol, words, powers in (
+        ("g", r"\Gamma_o/(\mu R_w)", "toughness", {GAMMA: 1, MU: -1, RADIUS: -1}),
+        ("R_w/l_e", "R_w/l_e", "radius over elasto-cohesive length", {RADIUS: 1, MU: 1, GAMMA: -1}),
+        ("R_w/l_w", "R_w/l_w", "radius over wear length", {RADIUS: 1, WEAR: 1, GAMMA: -1}),
+        ("tau_w/mu", r"\tau_w/\mu", "wear over stiffness", {WEAR: 1, MU: -1}),
+        ("tau_w/(xi mu)", r"\tau_w/(\xi\mu)", "wear over friction", {WEAR: 1, XI: -1, MU: -1}),
+    ):
+        quantity = Quantity(name, "", "give a positive number without unit", lower=SMALLEST)
+        found.append(Coordinate(quantity, symbol, words, MappingProxyType(powers)))
+    return MappingProxyType({one.name: one for one in found})
+
+
+COORDINATES = _coordinates()
+"""Every quantity and group that a map can be drawn over, by its name."""
+
+_SHORT = {"mu": MU, "Gamma_o": GAMMA, "R_w": RADIUS, "xi": XI, "tau_w": WEAR, "alpha": ALPHA}
+
+
+def coordinate(name: object) -> Coordinate:
+    """Return the coordinate of that name, the paper's letters included.
+
+    Raises
+    ------
+    InputError
+        If there is none; the message lists those that there are.
+
+    Examples
+    --------
+    >>> coordinate("R_w").name, coordinate("g").words
+    ('wire_radius', 'toughness')
+    """
+    if isinstance(name, str) and (full := _SHORT.get(name, name)) in COORDINATES:
+        return COORDINATES[full]
+    raise InputError(
+        f"a map's coordinate must be a quantity of the scene or a group, but is {shown(name)}; "
+        f"choose one of {', '.join(COORDINATES)}."
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapAxis(Record):
+    """One axis of a map.
+
+    Parameters
+    ----------
+    name : str
+        Name of the coordinate, see `regime_map`.
+    scale : str
+        "log" or "linear": how the nodes are spaced.
+    values : ndarray, shape (n,)
+        The nodes, rising, in the unit of the coordinate [SI].
+
+    Examples
+    --------
+    >>> axis = map_axis("wire_radius", (1e-5, 1e-3), "log", 3)
+    >>> axis.label, axis.values.tolist()
+    ('wire radius $R_w$ [m]', [1e-05, 0.0001, 0.001])
+    """
+
+    name: str
+    scale: str
+    values: NDArray[np.float64]
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """What the axis shows."""
+        return COORDINATES[self.name]
+
+    @property
+    def unit(self) -> str:
+        """Unit in the SI; empty for a group."""
+        return self.coordinate.unit
+
+    @property
+    def label(self) -> str:
+        """Words, symbol and unit, with the symbol as mathematical text."""
+        one = self.coordinate
+        unit = one.unit.replace("m^2", "m$^2$") or "-"
+        return f"{one.words} ${one.symbol}$ [{unit}]"
+
+    def to_scale(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return places along the axis: logarithms where the scale is."""
+        with np.errstate(all="ignore"):
+            return np.log(values) if self.scale == "log" else np.asarray(values, dtype=float)
+
+    def from_scale(self, places: ArrayLike) -> NDArray[np.float64]:
+        """Return values from places along the axis, inside its ends."""
+        with np.errstate(all="ignore"):
+            values = np.exp(places) if self.scale == "log" else np.asarray(places, dtype=float)
+        return np.clip(values, self.values[0], self.values[-1])
+
+
+def map_axis(name: str, limits: object, scale: str, nodes: int) -> MapAxis:
+    """Return an axis with evenly spaced nodes between two limits.
+
+    Raises
+    ------
+    InputError
+        If the limits are not two numbers that the coordinate may take, rising, far enough apart
+        for the nodes and, on a log scale, positive; or if the scale is neither "log" nor "linear".
+    """
+    chosen = coordinate(name)
+    if scale not in ("log", "linear"):
+        raise InputError(
+            f"the scale of {chosen.name} must be 'log' or 'linear', but is {shown(scale)}; "
+            "choose one of them."
+        )
+    try:
+        low, high = (one_number(chosen.quantity, value) for value in limits)  # type: ignore[attr-defined]
+    except InputError:
+        raise
+    except (TypeError, ValueError):
+        raise InputError(
+            f"the range of {chosen.name} must be two numbers, but is {shown(limits)}; "
+            "give the lowest and the highest value."
+        ) from None
+    if scale == "log" and low == 0.0:
+        raise InputError(
+            f"the range of {chosen.name} must be positive on a log scale, but begins at 0; "
+            "begin above 0, or choose scale 'linear'."
+        )
+    with np.errstate(all="ignore"):
+        spaced = np.geomspace if scale == "log" else np.linspace
+        values = spaced(low, high, nodes) if low < high else np.empty(0)
+    if not (values.size and np.all(np.isfinite(values)) and np.all(np.diff(values) > 0.0)):
+        raise InputError(
+            f"the range of {chosen.name} must rise and hold {nodes} different nodes, but is "
+            f"{low!r} to {high!r}; give the lowest value first, and a wider range."
+        )
+    values[0], values[-1] = low, high
+    values.flags.writeable = False
+    return MapAxis(chosen.name, scale, values)
+
+
+@dataclass(frozen=True)
+class Monomial:
+    """factor x^p y^q.
+
+    Examples
+    --------
+    >>> one = Monomial(2.0, 1, 0) * Monomial(3.0, 0, -1)
+    >>> one, float(one(5.0, 10.0))
+    (Monomial(factor=6.0, p=1, q=-1), 3.0)
+    """
+
+    factor: float
+    p: int = 0
+    q: int = 0
+
+    def __mul__(self, other: Monomial) -> Monomial:
+        return Monomial(self.factor * other.factor, self.p + other.p, self.q + other.q)
+
+    def __pow__(self, power: int) -> Monomial:
+        with np.errstate(all="ignore"):
+            factor = float(np.float64(self.factor) ** power)
+        return Monomial(factor, power * self.p, power * self.q)
+
+    def __call__(self, x: Any, y: Any) -> Any:
+        """Return its value; plain x where that is what it is."""
+        value = self.factor
+        with np.errstate(all="ignore"):
+            for power, base in ((self.p, x), (self.q, y)):
+                if power:
+                    value = value * np.power(base, float(power))
+        return value
+
+
+def resolve(
+    x: str, y: str, fixed: Mapping[str, float]
+) -> tuple[dict[str, Monomial], tuple[str, ...]]:
+    """Return the scene's quantities as functions of x and y, and which of them are mere units.
+
+    Parameters
+    ----------
+    x, y : str
+        Names of the axes' coordinates.
+    fixed : mapping of str to float
+        What else is given, quantities and groups.
+
+    Returns
+    -------
+    quantities : dict of str to Monomial
+        The six quantities of the scene.
+    units : tuple of str
+        Those that were set to 1 because only dimensionless groups are given.
+
+    Raises
+    ------
+    InputError
+        If something is given twice, is missing, or cannot be solved for.
+
+    Examples
+    --------
+    >>> quantities, units = resolve("wire_radius", "g", {"shear_modulus": 685.0})
+    >>> quantities["toughness"]
+    Monomial(factor=685.0, p=1, q=1)
+    """
+    given = {x: Monomial(1.0, 1, 0), y: Monomial(1.0, 0, 1)}
+    if x == y:
+        raise InputError(f"a map needs two different axes, but both are {x}; choose another.")
+    for name, value in fixed.items():
+        if name in given:
+            raise InputError(f"{name} must be given once, but is an axis and fixed; drop one.")
+        given[name] = Monomial(value)
+    known = {name: given.pop(name) for name in NAMES if name in given}
+    groups = {COORDINATES[name]: value for name, value in given.items()}
+    _solve(groups, known)
+    units = _choose_units(groups, known)
+    touched = {name for group in groups for name in group.powers}
+    for name, value in DEFAULTS.items():
+        if name not in touched:
+            known.setdefault(name, Monomial(value))
+    if missing := [name for name in NAMES if name not in known]:
+        raise InputError(
+            f"a map over {x} and {y} must have all quantities of a scene, but lacks "
+            f"{' and '.join(missing)}; give it in fixed, or a group that it belongs to."
+        )
+    return known, units
+
+
+def _solve(groups: dict[Coordinate, Monomial], known: dict[str, Monomial]) -> None:
+    """Move to `known` what groups with one unknown determine; drop those groups."""
+    progress = True
+    while progress:
+        progress = False
+        for group in list(groups):
+            unknown = [name for name in group.powers if name not in known]
+            if not unknown:
+                raise InputError(
+                    f"{group.name} must be free, but follows from what else is given; "
+                    f"drop it, or one of {', '.join(group.powers)}."
+                )
+            if len(unknown) == 1:
+                known[unknown[0]] = _solved(group, unknown[0], groups.pop(group), known)
+                progress = True
+
+
+def _solved(
+    group: Coordinate, name: str, value: Monomial, known: Mapping[str, Monomial]
+) -> Monomial:
+    """Return the one unknown quantity of a group."""
+    for other, power in group.powers.items():
+        if other != name:
+            if known[other].factor == 0.0:
+                raise InputError(
+                    f"{other} must be positive where {group.name} is given, but is 0; give a "
+                    f"positive {other}, or {name} instead of {group.name}."
+                )
+            value = value * known[other] ** -power
+    return value if group.powers[name] == 1 else value**-1
+
+
+def _choose_units(
+    groups: dict[Coordinate, Monomial], known: dict[str, Monomial]
+) -> tuple[str, ...]:
+    """Set to 1 what only sets the scale of stress or length, and solve for what follows."""
+    units = []
+    scaled = [name for name in known if name in DIMENSIONS and known[name].factor != 0.0]
+    dimensions = [DIMENSIONS[name] for name in scaled]
+    for name in UNITS:
+        if name in known:
+            continue
+        rank = np.linalg.matrix_rank(dimensions) if dimensions else 0
+        if np.linalg.matrix_rank([*dimensions, DIMENSIONS[name]]) > rank:
+            units.append(name)
+            dimensions.append(DIMENSIONS[name])
+            known[name] = Monomial(1.0)
+            _solve(groups, known)
+    return tuple(units)

@@ -1,0 +1,239 @@
+"""Which boundaries a regime map has, and what holds on them.
+
+Terms are those that can dominate: for Eq. (13) toughness with its friction, wear, and friction of
+stiffness; for other models the parts of the force.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.boundaries import Boundary, Lines, contours, exact_lines
+from surrogate.force import CuttingForce, cutting_force
+from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
+from surrogate.map_axes import MapAxis, Monomial
+from surrogate.regimes import CONTACTS, SPLIT_MODEL, TOUCHING_TOUGHNESS, touching_toughness
+from surrogate.scene import Scene
+
+__all__ = ["LIMITS", "MapTerms", "boundaries"]
+
+Array = NDArray[np.float64]
+Sum = tuple[Monomial, ...]
+
+LIMITS = ("high-toughness", "low-toughness", "friction-free", "eq13")
+"""Models that are limits of others: Eqs. (10), (12), (15) and (13)."""
+
+_TEXT = {
+    "toughness-and-friction": ("(1 + xi) Gamma_o", r"(1+\xi)\,\Gamma_o"),
+    "wear": ("4 tau_w R_w", r"4\,\tau_w R_w"),
+    "friction-stiffness": ("4 xi mu R_w", r"4\,\xi\mu R_w"),
+}
+_PART_TEXT = {
+    "cleavage": ("Gamma_o", r"\Gamma_o"),
+    "friction": ("2 xi mu R_w B", r"2\,\xi\mu R_w B"),
+    "wear": ("2 tau_w R_w A", r"2\,\tau_w R_w A"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class MapTerms:
+    """What boundaries are made of: a map's axes, quantities, and the model's answer at its nodes.
+
+    Parameters
+    ----------
+    x, y : MapAxis
+        The axes.
+    quantities : mapping of str to Monomial
+        The scene's quantities in x and y.
+    scene : Scene
+        The scene at the nodes.
+    force : CuttingForce
+        Its force.
+    shares : mapping of str to ndarray
+        Share of each term [-].
+    """
+
+    x: MapAxis
+    y: MapAxis
+    quantities: Mapping[str, Monomial]
+    scene: Scene
+    force: CuttingForce
+    shares: Mapping[str, Any]
+
+    @property
+    def model(self) -> str:
+        """Name of the force model."""
+        return self.force.model
+
+    def contours(self, values: Any, level: float) -> Lines:
+        """Return where values at the nodes have a level."""
+        values = np.asarray(values, dtype=float)
+        whole = np.broadcast_to(values, (self.y.values.size, self.x.values.size))
+        return contours(whole, level, self.x, self.y)
+
+
+def boundaries(
+    terms: MapTerms, threshold: float, limits: tuple[str, ...], miss: float
+) -> tuple[Boundary, ...]:
+    """Return every boundary that crosses the map.
+
+    Raises
+    ------
+    UnknownModelError
+        If a limit is no model.
+    WirecutError
+        If contours are needed and contourpy is not installed.
+    """
+    for limit in limits:
+        force_model(limit)
+    found = [
+        *_equal_terms(terms),
+        *_dominance(terms, threshold),
+        *(_limit(terms, limit, miss) for limit in limits if limit != terms.model),
+        _contact(terms),
+    ]
+    return tuple(one for one in found if one.lines)
+
+
+def _equal_terms(terms: MapTerms) -> Iterator[Boundary]:
+    sums = _term_sums(terms)
+    text = _texts(terms.model)
+    for one, other in combinations(terms.shares, 2):
+        lines = None
+        if sums is not None:
+            lines = exact_lines((*sums[one], *_times(-1.0, sums[other])), terms.x, terms.y)
+        exact = lines is not None
+        if lines is None:
+            with np.errstate(all="ignore"):
+                log_ratio = np.log(terms.shares[one]) - np.log(terms.shares[other])
+            lines = terms.contours(log_ratio, 0.0)
+        (left, left_symbol), (right, right_symbol) = text[one], text[other]
+        yield Boundary(
+            "equal-terms",
+            (one, other),
+            f"{left} = {right}",
+            f"{left_symbol}={right_symbol}",
+            exact,
+            lines,
+        )
+
+
+def _dominance(terms: MapTerms, threshold: float) -> Iterator[Boundary]:
+    sums = _term_sums(terms)
+    text = _texts(terms.model)
+    for one in terms.shares:
+        lines = None
+        if sums is not None:
+            rest = [m for name in sums if name != one for m in _times(-threshold, sums[name])]
+            own = _times(1.0 - threshold, sums[one])
+            lines = exact_lines((*own, *rest), terms.x, terms.y)
+        exact = lines is not None
+        if lines is None:
+            lines = terms.contours(terms.shares[one], threshold)
+        plain, symbol = text[one]
+        yield Boundary(
+            "dominance",
+            (one,),
+            f"{plain} = {threshold:.3g} F_ss/T",
+            rf"{symbol}={threshold:.3g}\,F_{{ss}}/T",
+            exact,
+            lines,
+        )
+
+
+def _limit(terms: MapTerms, limit: str, miss: float) -> Boundary:
+    """Return where a limit is off by a share, above or below."""
+    sums = _force_sum(terms, limit), _force_sum(terms, terms.model)
+    lines: Lines | None = None
+    if None not in sums:
+        pieces = [
+            exact_lines(_collected((*sums[0], *_times(-factor, sums[1]))), terms.x, terms.y)  # type: ignore[misc, arg-type]
+            for factor in (1.0 - miss, 1.0 + miss)
+        ]
+        if None not in pieces:
+            lines = tuple(line for piece in pieces for line in piece)  # type: ignore[union-attr]
+    exact = lines is not None
+    if lines is None:
+        force = cutting_force(terms.scene, model=limit).total
+        with np.errstate(all="ignore"):
+            off = np.divide(force, terms.force.total) - 1.0
+        lines = (*terms.contours(off, -miss), *terms.contours(off, miss))
+    name = FORCE_MODELS[limit].equation
+    share = f"{100.0 * miss:.3g}"
+    return Boundary(
+        "limit", (limit,), f"{name} is off by {share} %", rf"{name}\ {share}\,\%", exact, lines
+    )
+
+
+def _contact(terms: MapTerms) -> Boundary:
+    """Return where the wire begins to touch the crack tip."""
+    touch = touching_toughness(terms.model, terms.scene.stiffening_exponent)
+    of = terms.quantities
+    toughness = of["toughness"]
+    stiffness = of["shear_modulus"] * of["wire_radius"]
+    lines = None
+    if isinstance(touch, float):
+        lines = exact_lines((toughness, *_times(-touch, (stiffness,))), terms.x, terms.y)
+    exact = lines is not None
+    if lines is None:
+        log_g = np.log((toughness * stiffness**-1)(terms.x.values, terms.y.values[:, np.newaxis]))
+        lines = terms.contours(log_g - np.log(touch), 0.0)
+    own = touch is not TOUCHING_TOUGHNESS
+    value = ("g_touch", r"g_{\rm touch}") if own else ("1", "1")
+    return Boundary("contact", CONTACTS, f"g = {value[0]}", f"g={value[1]}", exact, lines)
+
+
+def _texts(model: str) -> Mapping[str, tuple[str, str]]:
+    return _TEXT if model == SPLIT_MODEL else _PART_TEXT
+
+
+def _term_sums(terms: MapTerms) -> dict[str, Sum] | None:
+    """Return each term as a sum of monomials, or None where the model is no such sum."""
+    parts = _part_sums(terms, terms.model)
+    if parts is None or terms.model != SPLIT_MODEL:
+        return parts
+    of_toughness, of_stiffness = parts["friction"]
+    return {
+        "toughness-and-friction": (*parts["cleavage"], of_toughness),
+        "wear": parts["wear"],
+        "friction-stiffness": (of_stiffness,),
+    }
+
+
+def _part_sums(terms: MapTerms, model: str) -> dict[str, Sum] | None:
+    form = FORCE_MODELS.get(model)
+    if not isinstance(form, ClosedForm):
+        return None
+    of = terms.quantities
+    xi, radius = of["friction_coefficient"], of["wire_radius"]
+    return {
+        "cleavage": (of["toughness"],),
+        "friction": (
+            *_times(form.load_2_slope, (xi * of["toughness"],)),
+            *_times(form.load_2, (xi * of["shear_modulus"] * radius,)),
+        ),
+        "wear": _times(form.arc_2, (of["wear_strength"] * radius,)),
+    }
+
+
+def _force_sum(terms: MapTerms, model: str) -> Sum | None:
+    parts = _part_sums(terms, model)
+    return None if parts is None else tuple(one for part in parts.values() for one in part)
+
+
+def _times(factor: float, terms: Sum) -> Sum:
+    return tuple(Monomial(factor * one.factor, one.p, one.q) for one in terms)
+
+
+def _collected(terms: Sum) -> Sum:
+    """Return the sum with one monomial for each pair of powers, so that equal ones cancel."""
+    factors: dict[tuple[int, int], float] = {}
+    for one in terms:
+        factors[one.p, one.q] = factors.get((one.p, one.q), 0.0) + one.factor
+    return tuple(Monomial(factor, *powers) for powers, factor in factors.items())

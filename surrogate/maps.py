@@ -1,0 +1,378 @@
+"""Regime maps: which term of the force dominates, over any two quantities or groups."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surrogate.boundaries import Boundary
+from surrogate.elementwise import ratio
+from surrogate.errors import InputError
+from surrogate.force import CuttingForce, cutting_force
+from surrogate.map_axes import MapAxis, Monomial, coordinate, map_axis, resolve
+from surrogate.map_boundaries import LIMITS, MapTerms, boundaries
+from surrogate.regimes import DOMINANT_SHARE, Regime, classify, term_shares
+from surrogate.scene import NAMES, Scene, require_scene
+from surrogate.validation import SMALLEST, Quantity, one_number, shown
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["RegimeMap", "regime_map"]
+
+Array = NDArray[np.float64]
+
+MISS = Quantity("miss", "", "give 0.1 for 10 %", lower=SMALLEST, upper=1.0 - 2.0**-53)
+_FEWEST_NODES, _MOST_NODES = 3, 4001
+
+
+@dataclass(frozen=True, eq=False)
+class RegimeMap:
+    """A regime map; see `regime_map`. Its arrays have the shape (nodes of y, nodes of x).
+
+    Parameters
+    ----------
+    x, y : MapAxis
+        The axes with their nodes.
+    fixed : mapping of str to float
+        What else was given [SI].
+    units : tuple of str
+        Quantities that are 1 because only dimensionless groups were given: the units of the map.
+    scene : Scene
+        What is cut at each node.
+    force : CuttingForce
+        The force at each node with its parts, the model's relative error, None where nobody knows
+        one, and `in_domain`, whether the model's own condition holds [N/m, or `force_unit`].
+    regime : Regime
+        What `classify` answers at each node, with the threshold.
+    term_shares : mapping of str to ndarray
+        Share of the force of each term that can dominate, by the names of the regime [-].
+    miss : float
+        Share by which a limit formula misses the model on its boundary [-].
+    boundaries : tuple of Boundary
+        Where terms are equal, where one begins to dominate, where limit formulas end to hold, and
+        where the wire begins to touch the crack tip.
+    quantities : mapping of str to Monomial
+        The scene's quantities as functions c x^p y^q of the map's coordinates.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (10) to (15).
+
+    Examples
+    --------
+    >>> gel = {"shear_modulus": 685.0, "wear_strength": 7750.0}
+    >>> made = regime_map("wire_radius", "toughness", ((1e-5, 1e-3), (0.1, 10.0)), gel, nodes=3)
+    >>> made.regime.dominant[0].tolist()
+    ['wear', 'wear', 'wear']
+    >>> made.wear_share.round(3)[:, 1]
+    array([0.969, 0.756, 0.237])
+    """
+
+    x: MapAxis
+    y: MapAxis
+    fixed: Mapping[str, float]
+    units: tuple[str, ...]
+    scene: Scene
+    force: CuttingForce
+    regime: Regime
+    term_shares: Mapping[str, Array]
+    miss: float
+    boundaries: tuple[Boundary, ...]
+    quantities: Mapping[str, Monomial]
+
+    @property
+    def model(self) -> str:
+        """Name of the force model."""
+        return self.force.model
+
+    @property
+    def force_unit(self) -> str:
+        """Unit of the forces: N/m, or products of the quantities that are the map's units."""
+        if not self.units:
+            return "N/m"
+        stress = "mu" if "shear_modulus" in self.units else "Pa"
+        return f"{stress} {'R_w' if 'wire_radius' in self.units else 'm'}"
+
+    @property
+    def cleavage_share(self) -> Array:
+        """Share of the cleavage toughness in the force [-]; nan where the force is 0."""
+        return self._share(self.force.cleavage)
+
+    @property
+    def friction_share(self) -> Array:
+        """Share of friction in the force [-]; nan where the force is 0."""
+        return self._share(self.force.friction)
+
+    @property
+    def wear_share(self) -> Array:
+        """Share of wear in the force [-]; nan where the force is 0."""
+        return self._share(self.force.wear)
+
+    @property
+    def relative_force(self) -> Array:
+        """F_ss/(Gamma_o T) [-]; infinite where the toughness is 0."""
+        with np.errstate(all="ignore"):
+            return ratio(self.force.total, np.asarray(self.scene.toughness))  # type: ignore[no-any-return]
+
+    def _share(self, part: Any) -> Array:
+        with np.errstate(all="ignore"):
+            return ratio(part, np.asarray(self.force.total))  # type: ignore[no-any-return]
+
+    def scene_at(self, x: ArrayLike, y: ArrayLike) -> Scene:
+        """Return what is cut at places of the map [units of its axes].
+
+        Raises
+        ------
+        InputError
+            If a place is no admissible value of its coordinate.
+        """
+        places = [
+            axis.coordinate.quantity.checked(value) for axis, value in ((self.x, x), (self.y, y))
+        ]
+        return _scene(self.quantities, *places)
+
+    def locate(self, scene: Scene) -> tuple[Any, Any]:
+        """Return the places x and y of a scene on the map [units of its axes]; nan where none is.
+
+        Only the two coordinates are looked at, not whether the scene has what the map holds fixed.
+
+        Raises
+        ------
+        InputError
+            If `scene` is not a `Scene`.
+        """
+        require_scene(scene)
+        places = []
+        for axis in (self.x, self.y):
+            value: Any = 1.0
+            with np.errstate(all="ignore"):
+                for name, power in axis.coordinate.powers.items():
+                    value = value * np.power(getattr(scene, name), float(power))
+            places.append(value)
+        return places[0], places[1]
+
+    def difference(self, model: str) -> Array:
+        """Return how far another model is from the map's, F/F_map - 1 [-], at each node.
+
+        Raises
+        ------
+        UnknownModelError
+            If there is no such model.
+        """
+        return relative_difference(cutting_force(self.scene, model=model).total, self.force.total)
+
+    def to_csv(self, file: str | PathLike[str]) -> None:
+        """Write one line a node: coordinates, force, shares and regime, with units in the header.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be written.
+        """
+        from surrogate.map_export import write_map
+
+        write_map(self, file)
+
+    def boundaries_to_csv(self, file: str | PathLike[str]) -> None:
+        """Write one line a point of the boundaries, with units in the header.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be written.
+        """
+        from surrogate.map_export import write_boundaries
+
+        write_boundaries(self, file)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the map as a labelled data set with units.
+
+        Raises
+        ------
+        WirecutError
+            If xarray is not installed.
+        """
+        from surrogate.map_export import map_dataset
+
+        return map_dataset(self)
+
+
+def relative_difference(one: Any, other: Any) -> Array:
+    """Return one/other - 1; nan where both are 0 or infinite."""
+    with np.errstate(all="ignore"):
+        return np.asarray(np.divide(one, other) - 1.0)
+
+
+def regime_map(
+    x: str,
+    y: str,
+    ranges: Sequence[Sequence[float]],
+    fixed: Mapping[str, float] | None = None,
+    model: str = "eq13",
+    *,
+    scales: Sequence[str] = ("log", "log"),
+    nodes: int = 201,
+    threshold: float = DOMINANT_SHARE,
+    limits: Sequence[str] = LIMITS,
+    miss: float = 0.1,
+) -> RegimeMap:
+    """Return a map of regimes, forces and shares over two quantities or groups.
+
+    Parameters
+    ----------
+    x, y : str
+        What the axes show: "wire_radius", "toughness", "shear_modulus", "wear_strength",
+        "friction_coefficient", "stiffening_exponent", or a group, "g", "R_w/l_e", "R_w/l_w",
+        "tau_w/mu" or "tau_w/(xi mu)". The paper's letters will do: "R_w", "Gamma_o", "mu",
+        "tau_w", "xi", "alpha".
+    ranges : pair of pairs of float
+        Lowest and highest value of x, and of y [SI].
+    fixed : mapping of str to float, optional
+        What else is known, quantities and groups [SI]. The rest is solved for; xi and tau_w are 0
+        and alpha is 2 where nothing says otherwise. Where only dimensionless groups are given, mu
+        and R_w are the units of the map.
+    model : str, default "eq13"
+        The force model, as in `cutting_force`.
+    scales : pair of str, default ("log", "log")
+        "log" or "linear", of x and of y.
+    nodes : int, default 201
+        Nodes of each axis, from 3 to 4001 [-].
+    threshold : float, default 2/3
+        Share of the force from which a term dominates, as in `classify` [-].
+    limits : sequence of str, optional
+        Models whose limits are wanted: all of Eqs. (10), (12), (13) and (15) by default.
+    miss : float, default 0.1
+        Share by which a limit formula misses the model on its boundary [-].
+
+    Returns
+    -------
+    RegimeMap
+        Regimes, forces, shares, error and validity at each node, and the boundaries as polylines.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is unknown, given twice, missing or out of range.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If the model has no answer at a node.
+    WirecutError
+        If the model has no closed form and contourpy, which comes with matplotlib, is missing.
+
+    Notes
+    -----
+    Range of validity: that of the model, see `in_domain` of the map's force.
+
+    There are two kinds of boundary between regimes. On "equal-terms" two terms of the force are
+    equal: the classical transition, for instance R_w = l_w/4 without friction. On "limit" a
+    formula that leaves terms out, or Eq. (13) beside a fitted model, misses the map's model by
+    `miss`: there the formula ceases to be good enough, which may be far from where terms are equal.
+    "dominance" is where `classify` changes its answer, and "contact", a layer of its own, where it
+    changes from far-field to indentation cutting. Closed forms give exact lines; other models
+    contours between the nodes.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (5) and (10) to (15).
+
+    Examples
+    --------
+    >>> made = regime_map("R_w/l_e", "R_w/l_w", ((1e-4, 10.0), (1e-2, 100.0)), {"xi": 0.1})
+    >>> made.units, made.force_unit
+    (('shear_modulus', 'wire_radius'), 'mu R_w')
+    >>> [one.equation for one in made.boundaries if one.kind == "equal-terms"][0]
+    '(1 + xi) Gamma_o = 4 tau_w R_w'
+    >>> y = [one.lines for one in made.boundaries if one.kind == "equal-terms"][0][0][:, 1]
+    >>> print(f"R_w/l_w = {y[0]:.4f}")
+    R_w/l_w = 0.2750
+    """
+    number = _number_of_nodes(nodes)
+    axes = [
+        map_axis(coordinate(name).name, *pair, number)
+        for name, pair in zip((x, y), _pairs(ranges, scales), strict=True)
+    ]
+    given = _given(fixed)
+    quantities, units = resolve(axes[0].name, axes[1].name, given)
+    scene = _scene(quantities, axes[0].values, axes[1].values[:, np.newaxis])
+    share = one_number(MISS, miss)
+    force = cutting_force(scene, model=model)
+    regime = classify(scene, threshold, model)
+    shares = term_shares(scene, model)
+    terms = MapTerms(axes[0], axes[1], quantities, scene, force, shares)
+    made = boundaries(terms, regime.threshold, tuple(limits), share)
+    return RegimeMap(
+        axes[0],
+        axes[1],
+        MappingProxyType(given),
+        units,
+        scene,
+        force,
+        regime,
+        MappingProxyType(dict(zip(shares, map(np.asarray, shares.values()), strict=True))),
+        share,
+        made,
+        MappingProxyType(quantities),
+    )
+
+
+def _number_of_nodes(nodes: object) -> int:
+    if isinstance(nodes, (int, np.integer)) and _FEWEST_NODES <= nodes <= _MOST_NODES:
+        return int(nodes)
+    raise InputError(
+        f"nodes must be a whole number from {_FEWEST_NODES} to {_MOST_NODES}, but is "
+        f"{shown(nodes)}; give 201 for a figure."
+    )
+
+
+def _pairs(ranges: object, scales: object) -> list[tuple[Any, Any]]:
+    """Return range and scale of each axis."""
+    try:
+        both: tuple[Any, Any] = ranges, scales
+        (x_range, y_range), (x_scale, y_scale) = both
+    except (TypeError, ValueError):
+        raise InputError(
+            f"ranges and scales must be pairs, one for x and one for y, but are {shown(ranges)} "
+            f"and {shown(scales)}; give for instance ((1e-5, 1e-3), (0.1, 10.0)) and "
+            "('log', 'log')."
+        ) from None
+    return [(x_range, x_scale), (y_range, y_scale)]
+
+
+def _given(fixed: object) -> dict[str, float]:
+    if fixed is None:
+        return {}
+    if not isinstance(fixed, Mapping):
+        raise InputError(
+            f"fixed must map names to values, but is {shown(fixed)}; give for instance "
+            "{'shear_modulus': 685.0}."
+        )
+    given: dict[str, float] = {}
+    for name, value in fixed.items():
+        one = coordinate(name)
+        if one.name in given:
+            raise InputError(f"{one.name} must be given once, but is fixed twice; drop one.")
+        given[one.name] = one_number(one.quantity, value)
+    return given
+
+
+def _scene(quantities: Mapping[str, Monomial], x: Any, y: Any) -> Scene:
+    """Return the scene at places of a map; what is solved for is neither 0 nor infinite."""
+    axes = Monomial(1.0, 1, 0), Monomial(1.0, 0, 1)
+    values = {name: quantities[name](x, y) for name in NAMES}
+    for name, one in quantities.items():
+        solved = (one.p or one.q) and one not in axes
+        if solved and not (np.all(np.isfinite(values[name])) and np.all(values[name] > 0.0)):
+            raise InputError(
+                f"{name} must be positive and finite all over the map, but what is given makes it "
+                "leave the range of numbers; narrow the ranges, or begin above 0."
+            )
+    return Scene(**values)
