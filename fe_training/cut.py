@@ -42,6 +42,8 @@ _RESCUES = 2
 _SMALLEST = 0.02
 #: Elements nearer than this to the tip, in notch radii, are not split: the notch is no crack tip.
 _NOTCH_RINGS = 4.0
+#: A path ends rather than take a larger body [unknowns]: some 4 GB, and minutes a value.
+MOST_UNKNOWNS = 400_000
 #: Half the way that the tip moves for the rate of a true shift [R_w].
 _TIP_SHIFT = 0.01
 #: Share of B that a truncation at L takes away is taken to be this times sqrt(g R_w / L); assumed,
@@ -95,6 +97,10 @@ class Settings:
         )
 
 
+class MeshTooLargeError(PathStalledError):
+    """The path asks for a finer mesh than is worth its time."""
+
+
 class Cut:
     """A body of one material on one mesh, with what is needed to make records of its states.
 
@@ -138,6 +144,8 @@ class Cut:
                         break
                 else:
                     return
+            except MeshTooLargeError:
+                raise
             except PathStalledError:
                 rescues += 1
                 share = _SPLIT_SHARE ** (1 + rescues)
@@ -176,6 +184,8 @@ class Cut:
         """Split elements, and let the body settle at the same value of a control."""
         value = control_value(self.body, state, control)
         body, carried = refined(self.body, state, elements)
+        if int(body.free.sum()) > MOST_UNKNOWNS:
+            raise MeshTooLargeError(state, control, value, NewtonOutcome.STALLED)
         solver = make_solver(self.settings.solver)
         found, outcome = equilibrate(body, carried, control, value, solver, guarded=False)
         if outcome is not NewtonOutcome.CONVERGED:
@@ -255,8 +265,6 @@ class Cut:
         arc = observe.contact_arc(body, state)
         ahead = observe.stress_ahead(body, state)
         tip = body.face[0]
-        now = time.perf_counter()
-        elapsed, self._clock = now - self._clock, now
         record = Record(
             alpha=body.alpha,
             outcome=Outcome.CONVERGED,
@@ -282,7 +290,7 @@ class Cut:
             bulk=self.settings.bulk,
             solver=self.solver.name,
             truncation_error=TRUNCATION_FACTOR * float(np.sqrt(max(J, 0.0) / body.outer_radius)),
-            wall_time=elapsed,
+            wall_time=self._elapsed(),
             pressure_angle=arc.theta,
             pressure=arc.pressure,
             ahead_reference=ahead.reference,
@@ -293,14 +301,27 @@ class Cut:
             return record
         return replace(record, outcome=Outcome.OUTSIDE_EVIDENCE)
 
+    def _elapsed(self) -> float:
+        """Return the seconds since the last record."""
+        now = time.perf_counter()
+        elapsed, self._clock = now - self._clock, now
+        return elapsed
+
     def failure(self, error: PathStalledError, target: float = np.nan) -> Record:
         """Return the record of a configuration that was not reached."""
-        folded = error.outcome is NewtonOutcome.CONVERGED
+        outcome, reason = Outcome.STALLED, str(error)
+        if isinstance(error, MeshTooLargeError):
+            outcome = Outcome.TOO_LARGE
+            reason = f"more than {MOST_UNKNOWNS:,} unknowns beyond {error.control.value} = "
+            reason += f"{error.value:.6g}"
+        elif error.outcome is NewtonOutcome.CONVERGED:
+            outcome = Outcome.FOLDED
         return Record(
             alpha=self.body.alpha,
-            outcome=Outcome.FOLDED if folded else Outcome.STALLED,
+            outcome=outcome,
             target=target,
-            reason=str(error),
+            reason=reason,
+            wall_time=self._elapsed(),
             unknowns=int(self.body.free.sum()),
             mesh=self.spec.as_dict(),
             bulk=self.settings.bulk,

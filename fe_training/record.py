@@ -31,6 +31,10 @@ class Outcome(Enum):
         "the only equilibria found have folded elements",
         "refine the mesh behind the contact, or take smaller steps",
     )
+    TOO_LARGE = (
+        "the path needs a larger mesh than the engine allows itself",
+        "ask for a smaller g or a larger scatter; fe_training.cut.MOST_UNKNOWNS is the limit",
+    )
     NOT_REACHED = (
         "the root search did not meet the wanted value",
         "ask for a path of several values around it",

@@ -241,11 +241,15 @@ class Scope:
         Toughnesses beyond the range, for each of `alphas`.
     beyond_alphas, beyond_alpha_gs : tuple of float
         Exponents beyond the range and the toughnesses for them.
-    mesh_alphas, compared_alphas : tuple of float
-        Exponents of the study `mesh` and of the later ones.
-    compared_gs, parameter_gs, shift_gs : tuple of float
-        Toughnesses of `truncation` and `contact`, of `parameters` and of the shift in `checks`;
-        the first two among `gs`.
+    mesh_alphas, mesh_gs : tuple of float
+        Exponents and toughnesses of the study `mesh`; all toughnesses that are compared are
+        among `gs`.
+    compared_alphas, compared_gs : tuple of float
+        Those of `truncation` and `contact`; the exponents are also those of `checks`.
+    parameter_alphas, parameter_gs : tuple of float
+        Those of `parameters`.
+    shift_gs : tuple of float
+        Toughnesses of the shift in `checks`.
     radii : tuple of float
         Radii of the body to compare with, relative to that of `base`.
     spacings : tuple of float
@@ -263,8 +267,10 @@ class Scope:
     beyond_alphas: tuple[float, ...]
     beyond_alpha_gs: tuple[float, ...]
     mesh_alphas: tuple[float, ...]
+    mesh_gs: tuple[float, ...]
     compared_alphas: tuple[float, ...]
     compared_gs: tuple[float, ...]
+    parameter_alphas: tuple[float, ...]
     parameter_gs: tuple[float, ...]
     shift_gs: tuple[float, ...]
     radii: tuple[float, ...]
@@ -284,6 +290,7 @@ class Scope:
             alphas=inside,
             mesh_alphas=inside,
             compared_alphas=inside,
+            parameter_alphas=inside,
             beyond_alphas=tuple(a for a in chosen if a not in inside),
             beyond_alpha_gs=self.beyond_alpha_gs or self.gs,
         )
@@ -291,22 +298,20 @@ class Scope:
 
 def full_scope(base: Settings | None = None) -> Scope:
     """Return what the studies cover, with the engine's default settings unless others are given."""
-    compared = (0.0025, 0.02, 0.1, 1.0, 10.0, 50.0, 100.0)
     return Scope(
         base=base or Settings(),
-        alphas=(2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 9.0),
-        gs=(
-            *(0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5),
-            *(1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0),
-        ),
-        beyond_gs=(150.0, 300.0),
+        alphas=(2.0, 3.0, 5.0, 9.0),
+        gs=(0.0025, 0.02, 0.05, 0.5, 1.0, 5.0, 10.0, 30.0, 100.0),
+        beyond_gs=(300.0,),
         beyond_alphas=(1.5, 12.0, 15.0),
         beyond_alpha_gs=(0.1, 1.0, 10.0),
-        mesh_alphas=(2.0, 3.0, 5.0, 9.0),
+        mesh_alphas=(2.0, 5.0, 9.0),
+        mesh_gs=(0.0025, 0.05, 0.5, 1.0, 10.0, 30.0),
         compared_alphas=(2.0, 5.0, 9.0),
-        compared_gs=compared,
-        parameter_gs=(0.05, 1.0, 10.0, 50.0),
-        shift_gs=(0.02, 0.5, 2.0, 10.0),
+        compared_gs=(0.0025, 0.05, 1.0, 10.0, 30.0),
+        parameter_alphas=(2.0, 9.0),
+        parameter_gs=(0.05, 1.0, 10.0),
+        shift_gs=(0.02, 0.5, 10.0),
         radii=(0.1, 0.01, 0.001),
         spacings=(0.7, 2.0),
         parameters=(
@@ -327,8 +332,10 @@ def quick_scope() -> Scope:
         beyond_alphas=(),
         beyond_alpha_gs=(),
         mesh_alphas=(5.0,),
+        mesh_gs=gs,
         compared_alphas=(5.0,),
         compared_gs=gs,
+        parameter_alphas=(5.0,),
         parameter_gs=gs,
         shift_gs=gs[1:],
         radii=(0.1,),
@@ -358,8 +365,10 @@ def _variants(study: str, scope: Scope) -> list[tuple[str, Settings]]:
 def _extent(study: str, scope: Scope) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return exponents and toughnesses of a study that compares settings."""
     if study == "mesh":
-        return scope.mesh_alphas, scope.gs
-    return scope.compared_alphas, scope.parameter_gs if study == "parameters" else scope.compared_gs
+        return scope.mesh_alphas, scope.mesh_gs
+    if study == "parameters":
+        return scope.parameter_alphas, scope.parameter_gs
+    return scope.compared_alphas, scope.compared_gs
 
 
 def _range_cases(scope: Scope) -> Iterator[Case]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fe_training import cut
 from fe_training.cut import Settings
 from fe_training.record import Outcome, Record
 from fe_training.reference import far_field_wedge
@@ -108,3 +109,14 @@ def test_bad_input_is_named(arguments, word):
 
 def test_every_outcome_but_success_has_a_remedy():
     assert all(bool(o.remedy) != (o is Outcome.CONVERGED) for o in Outcome)
+
+
+def test_a_path_that_asks_for_too_large_a_mesh_ends_with_that_outcome(monkeypatch):
+    within = solve(5.0, g=0.5, settings=COARSE)
+    monkeypatch.setattr(cut, "MOST_UNKNOWNS", within.unknowns)
+    reached, failed = solve_path(5.0, [0.5, 5.0], replace(COARSE, scatter=0.003))
+    assert failed.outcome is Outcome.TOO_LARGE
+    assert f"{within.unknowns:,} unknowns" in failed.reason
+    assert failed.target == 5.0
+    assert failed.wall_time > 0.0
+    assert reached.unknowns <= within.unknowns
