@@ -15,6 +15,7 @@ import numpy as np
 
 from . import plots
 from .errors import InputError
+from .markdown import markdown_table
 from .software import software
 from .verify import STUDIES, Finding, Measure, Scope, Solved, StudyResult
 
@@ -136,7 +137,7 @@ def summary_table(results: Sequence[StudyResult]) -> str:
         ]
         for line in summary(results)
     ]
-    return _markdown(head, rows)
+    return markdown_table(head, rows) + "\n"
 
 
 def write_report(
@@ -219,8 +220,8 @@ def _write_tables(folder: Path, result: StudyResult) -> list[Path]:
         writer.writerows([["" if _is_missing(x) else x for x in row] for row in rows])
     page = folder / f"{result.name}.md"
     text = f"# {result.name}\n\n{STUDIES[result.name]}\n\n"
-    text += _markdown(head, [[_cell(name, x) for name, x in _named(head, row)] for row in rows])
-    page.write_text(text + _facts(result), encoding="utf-8")
+    text += markdown_table(head, [[_cell(name, x) for name, x in _named(head, row)] for row in rows])
+    page.write_text(f"{text}\n{_facts(result)}", encoding="utf-8")
     return [table, page]
 
 
@@ -244,12 +245,6 @@ def _cell(name: str, value: Any) -> str:
 
 def _number(value: float) -> str:
     return "" if math.isnan(value) else f"{value:.2e}"
-
-
-def _markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    escaped = ([" ".join(cell.split()).replace("|", "\\|") for cell in line] for line in lines)
-    return "".join(f"| {' | '.join(line)} |\n" for line in escaped)
 
 
 def _facts(result: StudyResult) -> str:
