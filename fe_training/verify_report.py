@@ -220,13 +220,10 @@ def _write_tables(folder: Path, result: StudyResult) -> list[Path]:
         writer.writerows([["" if _is_missing(x) else x for x in row] for row in rows])
     page = folder / f"{result.name}.md"
     text = f"# {result.name}\n\n{STUDIES[result.name]}\n\n"
-    text += markdown_table(head, [[_cell(name, x) for name, x in _named(head, row)] for row in rows])
+    cells = [[_cell(name, x) for name, x in zip(head, row, strict=True)] for row in rows]
+    text += markdown_table(head, cells)
     page.write_text(f"{text}\n{_facts(result)}", encoding="utf-8")
     return [table, page]
-
-
-def _named(head: Sequence[str], row: Sequence[Any]) -> list[tuple[str, Any]]:
-    return list(zip(head, row, strict=True))
 
 
 def _is_missing(value: Any) -> bool:
