@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from surrogate.design import Design, design_radii
     from surrogate.gradient import ForceGradient, force_gradient
     from surrogate.identification import Identification, identify
+    from surrogate.map_plots import plot_regime_map
+    from surrogate.map_points import MapPoints
     from surrogate.maps import RegimeMap, regime_map
     from surrogate.plots import plot_identification
     from surrogate.propagation import UncertainForce, propagate
@@ -54,6 +56,7 @@ __all__ = [
     "ForceGradient",
     "Identification",
     "InputError",
+    "MapPoints",
     "Material",
     "Measurements",
     "Regime",
@@ -76,6 +79,7 @@ __all__ = [
     "low_toughness_dissipation",
     "low_toughness_force",
     "plot_identification",
+    "plot_regime_map",
     "power_law_dissipation",
     "power_law_exponent",
     "propagate",
@@ -92,6 +96,7 @@ _LAZY = {
     "Design": "design",
     "ForceGradient": "gradient",
     "Identification": "identification",
+    "MapPoints": "map_points",
     "Material": "data",
     "Measurements": "data",
     "RegimeMap": "maps",
@@ -100,6 +105,7 @@ _LAZY = {
     "force_gradient": "gradient",
     "identify": "identification",
     "plot_identification": "plots",
+    "plot_regime_map": "map_plots",
     "propagate": "propagation",
     "read_material": "data",
     "read_measurements": "data",

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from importlib.util import find_spec
 from os import PathLike
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.errors import InputError, WirecutError
+from surrogate.errors import InputError
+from surrogate.figures import (
+    BLUE,
+    GREY,
+    MEDIUM,
+    RED,
+    SINGLE_COLUMN,
+    SMALL,
+    legend_above,
+    new_axes,
+    new_figure,
+    picture_file,
+    save_figure,
+)
 from surrogate.identification import Identification
-from surrogate.paths import file_name
 from surrogate.validation import TOUGHNESS, one_number, shown
 
 if TYPE_CHECKING:
@@ -22,16 +32,9 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_identification", "save_identification"]
 
-SINGLE_COLUMN = (3.4, 2.9)
-"""Width and height of a figure that fills one column of a journal [inch]."""
-
 PURE_SHEAR_TOUGHNESS = replace(
     TOUGHNESS, name="pure_shear_toughness", remedy="give Gamma in joules a square metre"
 )
-
-_SMALL = 7.0
-_MEDIUM = 8.0
-_BLUE, _RED, _GREY = "#1f5fa8", "#c0392b", "#555555"
 
 
 def plot_identification(
@@ -92,7 +95,7 @@ def plot_identification(
     if pure_shear_toughness is not None:
         pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
     if ax is None:
-        ax = _new_axes()
+        ax = new_axes(SINGLE_COLUMN)
     radius = np.linspace(0.0, 1.08, 201) * identification.wire_radius.max()
     handles = [
         _draw_measurements(ax, identification, force_label),
@@ -139,40 +142,15 @@ def save_identification(
         ...
     surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
     """
-    file = file_name(file)
-    if PurePath(file).suffix.lower() not in (".png", ".pdf", ".svg"):
-        raise InputError(f"{file} has no picture's ending; choose .png, .pdf or .svg.")
-    _require_matplotlib()
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=SINGLE_COLUMN, layout="constrained")
+    file = picture_file(file)
+    figure = new_figure(SINGLE_COLUMN)
     plot_identification(
         identification,
         figure.add_subplot(),
         pure_shear_toughness=pure_shear_toughness,
         force_label=force_label,
     )
-    try:
-        with rc_context({"pdf.fonttype": 42}):  # editable text, which journals ask for
-            figure.savefig(file, dpi=300)
-    except OSError as error:
-        raise InputError(f"{file} cannot be written ({error.strerror}); choose another.") from None
-
-
-def _require_matplotlib() -> None:
-    if find_spec("matplotlib") is None:
-        raise WirecutError(
-            "drawing needs matplotlib; install it with: pip install 'wirecut[plot]'."
-        )
-
-
-def _new_axes() -> Axes:
-    _require_matplotlib()
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=SINGLE_COLUMN, layout="constrained")
-    return ax
+    save_figure(figure, file)
 
 
 def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
@@ -182,7 +160,7 @@ def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
         yerr=fit.force_std,
         fmt="s",
         ms=4,
-        color=_BLUE,
+        color=BLUE,
         mec="white",
         mew=0.5,
         capsize=2,
@@ -198,12 +176,12 @@ def _draw_fit(ax: Axes, fit: Identification, radius: NDArray[np.float64]) -> Ite
         rf"$\Gamma_o$ = {fit.toughness:.3g} J/m$^2$, "
         rf"$\tau_w$ = {1e-3 * fit.wear_strength:.3g} kPa"
     )
-    yield from ax.plot(1e3 * radius, line, color=_RED, lw=1.2, label=label)
-    ax.plot([0.0], [fit.toughness], "o", ms=4, mfc="white", mec=_RED, zorder=4, clip_on=False)
+    yield from ax.plot(1e3 * radius, line, color=RED, lw=1.2, label=label)
+    ax.plot([0.0], [fit.toughness], "o", ms=4, mfc="white", mec=RED, zorder=4, clip_on=False)
     low, high = fit.band(radius)
     if np.any(high - low > 1e-9 * np.abs(line)):  # neither nan nor rounding
         label = f"{100.0 * fit.confidence:.3g} % band"
-        yield ax.fill_between(1e3 * radius, low, high, color=_RED, alpha=0.18, lw=0, label=label)
+        yield ax.fill_between(1e3 * radius, low, high, color=RED, alpha=0.18, lw=0, label=label)
 
 
 def _draw_references(
@@ -214,26 +192,15 @@ def _draw_references(
         yield ax.axhline(pure_shear_toughness, color="black", lw=0.8, ls="--", label=label)
     if np.isfinite(fit.transition_radius):
         label = rf"$R_w^*$ = {1e6 * fit.transition_radius:.3g} µm"
-        yield ax.axvline(1e3 * fit.transition_radius, color=_GREY, lw=0.8, ls=":", label=label)
+        yield ax.axvline(1e3 * fit.transition_radius, color=GREY, lw=0.8, ls=":", label=label)
 
 
 def _label(ax: Axes, largest_radius: float, handles: list[Any]) -> None:
     ax.set_xlim(0.0, 1e3 * largest_radius)
     ax.set_ylim(bottom=min(0.0, ax.dataLim.y0))
-    ax.set_xlabel("wire radius $R_w$ [mm]", fontsize=_MEDIUM)
-    ax.set_ylabel("cutting force $F_{ss}/T$ [N/m]", fontsize=_MEDIUM)
+    ax.set_xlabel("wire radius $R_w$ [mm]", fontsize=MEDIUM)
+    ax.set_ylabel("cutting force $F_{ss}/T$ [N/m]", fontsize=MEDIUM)
     ax.locator_params(nbins=6, steps=[1, 2, 5, 10])
-    ax.tick_params(labelsize=_SMALL)
+    ax.tick_params(labelsize=SMALL)
     ax.spines[["top", "right"]].set_visible(False)
-    # Above the axes, where no data can be, whatever the line's slope.
-    ax.legend(
-        handles=handles,
-        loc="lower left",
-        bbox_to_anchor=(-0.1, 1.0),
-        ncols=2,
-        fontsize=_SMALL,
-        frameon=False,
-        handlelength=1.6,
-        columnspacing=1.0,
-        borderaxespad=0.2,
-    )
+    legend_above(ax, 2, handles)
