@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate import __version__, report
+from surrogate import __version__, cli_map, report
 from surrogate.command import OneLineParser, run_command
 from surrogate.data import Material, read_material, read_measurements
 from surrogate.errors import InputError
@@ -40,6 +40,7 @@ _DESCRIPTIONS = {
     "force": "Steady cutting force per sample thickness of each wire, and what it is made of.",
     "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
+    "map": cli_map.DESCRIPTION,
     "models": "The force models that --model accepts.",
 }
 
@@ -79,6 +80,7 @@ example:
   wirecut regime --shear-modulus 685Pa --toughness 1.6J/m2 \\
     --wear-strength 7.75kPa --wire-diameter 50um 0.5mm
 """,
+    "map": f"{_UNITS}\n\n{cli_map.EXAMPLES}",
     "models": """\
 example:
   wirecut models --json
@@ -138,6 +140,7 @@ def _parser() -> argparse.ArgumentParser:
         ("force", _add_force_options, _force),
         ("identify", _add_identify_options, _identify),
         ("regime", _add_regime_options, _regime),
+        ("map", lambda command: cli_map.add_options(command, _quantity), _map),
         ("models", lambda command: None, _models),
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
@@ -286,6 +289,10 @@ def _regime(options: argparse.Namespace) -> None:
     _print(
         options, report.regime_record(scene, classify(scene, options.threshold)), report.regime_text
     )
+
+
+def _map(options: argparse.Namespace) -> None:
+    _print(options, cli_map.map_record(options), cli_map.map_text)
 
 
 def _models(options: argparse.Namespace) -> None:

@@ -17,11 +17,14 @@ from surrogate.identification import Identification
 from surrogate.radii import fracto_cohesive_transition_radius
 from surrogate.regimes import Regime, classify
 from surrogate.scene import Scene
+from surrogate.tables import UNKNOWN
+from surrogate.tables import number as _number
+from surrogate.tables import table as _table
 from surrogate.validation import FloatOrArray
 
 Record: TypeAlias = "dict[str, Any]"
 
-NO_SCATTER, UNKNOWN = "no scatter", "unknown"
+NO_SCATTER = "no scatter"
 
 
 def force_record(scene: Scene, force: CuttingForce) -> Record:
@@ -310,15 +313,6 @@ def _rows(**columns: Any) -> list[Record]:
     ]
 
 
-def _number(value: float, digits: int = 4) -> str:
-    """A few digits for people, without an exponent where none is needed."""
-    if math.isnan(value):
-        return UNKNOWN
-    if 1e-3 <= abs(value) < 1e6:
-        return np.format_float_positional(value, digits, fractional=False, trim="-")
-    return f"{value:.{digits}g}"
-
-
 def _std_text(value: float, std: float | None, scale: float) -> str:
     """Two digits of a standard error, or why there are none."""
     if std is None or math.isnan(std):
@@ -333,12 +327,3 @@ def _residual_text(value: float, force: float) -> str:
 def _is_more_than_rounding(value: float, reference: float) -> bool:
     """Return whether a value counts beside the reference; nan does not."""
     return abs(value) >= 1e-12 * abs(reference)
-
-
-def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [header, *rows]
-    widths = [max(len(line[i]) for line in lines) for i in range(len(header))]
-    return "\n".join(
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    )
