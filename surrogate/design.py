@@ -9,10 +9,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surrogate.cuts import FORCE_STD, WIRE_RADIUS, column
 from surrogate.errors import InputError
 from surrogate.force import cutting_force
-from surrogate.identification import FORCE_STD, WIRE_RADIUS, column, linear_form
 from surrogate.least_squares import solve_least_squares
+from surrogate.linear_fit import linear_form
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import Quantity, one_number, shown
 
@@ -270,7 +271,7 @@ def _loss(goal: str, weight: Array, radius: Array) -> Array:
 def _standard_errors(wire_radius: Array, noise: Noise) -> tuple[float, float]:
     """Return the standard errors of Gamma_o [J/m2] and tau_w [Pa] of Eq. (13)."""
     friction = 0.0 if noise.expected is None else float(noise.expected.friction_coefficient)
-    columns, _ = linear_form("eq13", wire_radius, 1.0, friction, 2.0)
+    columns, _ = linear_form("eq13", wire_radius, 1.0, friction)
     fit = solve_least_squares(columns / noise.std(wire_radius)[:, np.newaxis], wire_radius)
     toughness, wear_strength = np.sqrt(np.diag(fit.covariance))
     return float(toughness), float(wear_strength)

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surrogate.force_models import ClosedForm, ForceModel, force_model
 from surrogate.statistics import normal_quantile, student_quantile
 
 if TYPE_CHECKING:
-    from surrogate.identification import Identification
+    from surrogate.identified import Identification
 
 LARGEST_CONDITION = 30.0
 """Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
@@ -43,15 +44,23 @@ def fit_warnings(fit: Identification) -> Iterator[str]:
     ...     print(sentence[:28])
     only 2 different radii: they
     """
-    for doubts in (_too_few_radii, _condition, _negative_estimates, _regime, _scatter, _outlier):
+    for doubts in (
+        _too_few_radii,
+        _condition,
+        _negative_estimates,
+        _limits,
+        _regime,
+        _scatter,
+        _outlier,
+    ):
         yield from doubts(fit)
 
 
 def _too_few_radii(fit: Identification) -> Iterator[str]:
     if (distinct := np.unique(fit.wire_radius).size) < 3:
         yield (
-            f"only {distinct} different radii: they cannot show whether the forces lie on a line; "
-            "cut with a third radius between them"
+            f"only {distinct} different radii: they cannot show whether the forces lie on a "
+            f"{_shape(fit)}; cut with a third radius between them"
         )
 
 
@@ -76,7 +85,30 @@ def _negative_estimates(fit: Identification) -> Iterator[str]:
         )
 
 
+def _limits(fit: Identification) -> Iterator[str]:
+    if fit.profile is None:
+        return
+    if fit.profile.modes[0].at_end:
+        below = fit.toughness < fit.profile.searched[1]
+        what = fit.profile.ends[0 if below else 1]
+        limit = "given bound" if what == "bound" else f"end of what model '{fit.model}' covers"
+        yield (
+            f"the toughness is at the {limit} ({fit.toughness:.4g} J/m2), beyond which the forces "
+            "would be met better"
+        )
+    for name, value, known in (
+        ("toughness", fit.toughness, False),
+        ("wear strength", fit.wear_strength, fit.known.wear_strength is not None),
+    ):
+        if value == 0.0 and not known:
+            yield f"the {name} is 0, its limit: no larger one meets the forces as well"
+
+
 def _regime(fit: Identification) -> Iterator[str]:
+    chosen = force_model(fit.model)
+    if not isinstance(chosen, ClosedForm):
+        yield from _domain(fit, chosen)
+        return
     g = fit.dimensionless_toughness
     if (beyond := int(np.count_nonzero(g > 1.0))) > 0:
         yield (
@@ -93,24 +125,43 @@ def _regime(fit: Identification) -> Iterator[str]:
         )
 
 
+def _domain(fit: Identification, chosen: ForceModel) -> Iterator[str]:
+    holds = np.broadcast_to(
+        chosen.in_domain(
+            fit.shear_modulus,
+            fit.toughness,
+            fit.wire_radius,
+            fit.friction_coefficient,
+            fit.wear_strength,
+            fit.stiffening_exponent,
+        ),
+        fit.wire_radius.shape,
+    )
+    if (outside := int(np.count_nonzero(~holds))) > 0:
+        yield (
+            f"{outside} of {holds.size} wires are where model '{fit.model}' does not hold "
+            f"(it holds for: {chosen.domain})"
+        )
+
+
 def _scatter(fit: Identification) -> Iterator[str]:
     if fit.force_std is None and fit.dof == 0:
         yield (
-            "two forces determine the line exactly and leave no measure of scatter: standard "
-            "errors are unknown; cut more often, or give force_std"
+            f"two forces determine the {_shape(fit)} exactly and leave no measure of scatter: "
+            "standard errors are unknown; cut more often, or give force_std"
         )
     elif _is_exact(fit):
         yield (
-            "the forces lie on the line to the last digit, which no measurement does: the "
-            "residuals say nothing about the experiment's uncertainty"
+            f"the forces lie on the {_shape(fit)} to the last digit, which no measurement does: "
+            "the residuals say nothing about the experiment's uncertainty"
         )
     elif fit.reduced_chi_squared is not None and fit.dof > 0:
         limit = _reduced_chi_squared_limit(fit.dof)
         if fit.reduced_chi_squared > limit:
             yield (
                 f"chi^2/dof = {fit.reduced_chi_squared:.3g} is above {limit:.3g}: the forces "
-                "scatter about the line more than force_std allows; the line does not hold, or "
-                "force_std is too small, and so are the standard errors"
+                f"scatter about the {_shape(fit)} more than force_std allows; the {_shape(fit)} "
+                "does not hold, or force_std is too small, and so are the standard errors"
             )
 
 
@@ -120,7 +171,7 @@ def _outlier(fit: Identification) -> Iterator[str]:
     Only the worst, because one bad cut drags the line away from the good ones. Without known
     standard errors the spread is that of the other cuts, each left out in turn.
     """
-    if _is_exact(fit):
+    if _is_exact(fit) or any(_limits(fit)):  # at a limit the residuals have another spread
         return
     confidence = 1.0 - FALSE_ALARM / fit.force.size
     spread = np.sqrt(np.maximum(1.0 - fit.leverage, 0.0))
@@ -143,8 +194,12 @@ def _outlier(fit: Identification) -> Iterator[str]:
         yield (
             f"cut {worst + 1} (R_w = {1e3 * fit.wire_radius[worst]:.4g} mm, "
             f"{fit.force[worst]:.4g} N/m) is {abs(deviation[worst]):.1f} standard deviations off "
-            f"the line (limit {limit:.1f}): an outlier; repeat that cut"
+            f"the {_shape(fit)} (limit {limit:.1f}): an outlier; repeat that cut"
         )
+
+
+def _shape(fit: Identification) -> str:
+    return "line" if isinstance(force_model(fit.model), ClosedForm) else "curve"
 
 
 def _is_exact(fit: Identification) -> bool:

@@ -1,0 +1,306 @@
+"""What the forces of several wires say about a material: the record that `identify` returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from surrogate.cuts import PREDICTED_RADIUS, Array, Cuts
+from surrogate.fit_warnings import fit_warnings
+from surrogate.force_models import force_model
+from surrogate.further_wire import FurtherWire, forces_of
+from surrogate.known import NOTHING_KNOWN, Known
+from surrogate.linear_fit import linear_form
+from surrogate.profile import Interval, Profile
+from surrogate.radii import transition_radius, wear_transition_radius
+from surrogate.scene import Scene
+from surrogate.statistics import normal_quantile, student_quantile
+from surrogate.undecided import undecided
+from surrogate.validation import LARGEST
+
+__all__ = ["Identification"]
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """What a series of wire cuts says about a material; see `identify`.
+
+    Parameters
+    ----------
+    toughness, wear_strength : float
+        Estimates of Gamma_o [J/m2] and tau_w [Pa]; with `profile` None, negative where the data
+        say so.
+    covariance : ndarray, shape (2, 2)
+        Of (toughness, wear_strength), near the estimate; nan where the data leave no measure of
+        scatter.
+    correlation : float
+        Of the two estimates [-]; nan where one of them was given.
+    residuals : ndarray, shape (n,)
+        Measured minus fitted F_ss/T [N/m].
+    r_squared : float
+        Share of the forces' variation that the fit explains [-]; nan where they do not vary.
+    reduced_chi_squared : float or None
+        Sum of squared residuals in units of `force_std`, per degree of freedom [-]; None
+        without `force_std`, nan without degrees of freedom.
+    condition : float
+        Condition number of the design matrix with columns of unit length [-].
+    leverage : ndarray, shape (n,)
+        Weight of each force in its own prediction [-].
+    wire_radius, force, force_std : ndarray, shape (n,)
+        The measurements [m], [N/m], [N/m]; `force_std` may be None.
+    shear_modulus, friction_coefficient, stiffening_exponent : float
+        What was given: mu [Pa], xi [-], alpha [-].
+    model : str
+        Name of the force model.
+    confidence : float
+        Probability that each interval states [-].
+    known : Known
+        What was given besides the forces.
+    profile : Profile or None
+        The misfit along the toughness, with all its minima (`modes`) and the pieces of the
+        intervals; None where the force is a straight line in both unknowns and nothing else was
+        given.
+    further_wire : FurtherWire or None
+        The wire that would tell most about what `undecided` names; None without `profile`.
+
+    Notes
+    -----
+    With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
+    errors and covariance are those of the force's derivatives at the estimate.
+
+    Standard errors of lengths come from the covariance by first-order propagation, with mu and xi
+    taken as exact. They hold where the standard error of tau_w is small beside tau_w.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (10) to (15).
+
+    Examples
+    --------
+    >>> from surrogate.identification import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    >>> print(f"l_w = {1e6 * fit.wear_length:.1f} +- {1e6 * fit.wear_length_std:.1f} um")
+    l_w = 209.7 +- 18.5 um
+    """
+
+    toughness: float
+    wear_strength: float
+    covariance: Array
+    correlation: float
+    residuals: Array
+    r_squared: float
+    reduced_chi_squared: float | None
+    condition: float
+    leverage: Array
+    wire_radius: Array
+    force: Array
+    force_std: Array | None
+    shear_modulus: float
+    friction_coefficient: float
+    stiffening_exponent: float
+    model: str
+    confidence: float
+    known: Known = NOTHING_KNOWN
+    profile: Profile | None = None
+    further_wire: FurtherWire | None = None
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What makes the result doubtful, in words."""
+        return tuple(fit_warnings(self))
+
+    @property
+    def undecided(self) -> tuple[str, ...]:
+        """What the forces do not decide, and which further wire would, in words."""
+        return tuple(undecided(self))
+
+    @property
+    def cuts(self) -> Cuts:
+        """The measurements and what was given of the material."""
+        return Cuts(
+            self.wire_radius,
+            self.force,
+            self.force_std,
+            self.shear_modulus,
+            self.friction_coefficient,
+            self.stiffening_exponent,
+        )
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom: measurements and other facts less the two unknowns."""
+        return self.force.size + self.known.facts - 2
+
+    @property
+    def toughness_std(self) -> float:
+        """Standard error of the toughness [J/m2]."""
+        return float(np.sqrt(self.covariance[0, 0]))
+
+    @property
+    def wear_strength_std(self) -> float:
+        """Standard error of the wear strength [Pa]."""
+        return float(np.sqrt(self.covariance[1, 1]))
+
+    @property
+    def toughness_interval(self) -> tuple[float, float]:
+        """Confidence interval of the toughness [J/m2]; around all pieces that `profile` has."""
+        if self.profile is not None:
+            return _hull(self.profile.toughness_intervals)
+        return self._interval(self.toughness, self.toughness_std)
+
+    @property
+    def wear_strength_interval(self) -> tuple[float, float]:
+        """Confidence interval of the wear strength [Pa]; around all pieces that `profile` has."""
+        if self.profile is not None:
+            return _hull(self.profile.wear_strength_intervals)
+        return self._interval(self.wear_strength, self.wear_strength_std)
+
+    @property
+    def dimensionless_toughness(self) -> Array:
+        """g = Gamma_o/(mu R_w) of each wire [-], shape (n,)."""
+        return self.toughness / (self.shear_modulus * self.wire_radius)
+
+    @property
+    def is_physical(self) -> bool:
+        """Whether neither estimate is negative."""
+        return self.toughness >= 0.0 and self.wear_strength >= 0.0
+
+    @property
+    def wear_length(self) -> float:
+        """l_w = Gamma_o/tau_w [m]; nan where an estimate is negative."""
+        return 4.0 * self.wear_transition_radius
+
+    @property
+    def wear_transition_radius(self) -> float:
+        """l_w/4 [m]; nan where an estimate is negative."""
+        return float(wear_transition_radius(self.scene(1.0))) if self.is_physical else np.nan
+
+    @property
+    def transition_radius(self) -> float:
+        """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
+        return float(transition_radius(self.scene(1.0))) if self.is_physical else np.nan
+
+    @property
+    def wear_length_std(self) -> float:
+        """Standard error of l_w [m]; nan where l_w is infinite or nan."""
+        return self._length_std(1.0, 0.0)
+
+    @property
+    def wear_transition_radius_std(self) -> float:
+        """Standard error of l_w/4 [m]; nan where that is infinite or nan."""
+        return 0.25 * self.wear_length_std
+
+    @property
+    def transition_radius_std(self) -> float:
+        """Standard error of the transition radius of Eq. (13) [m]; nan where that is no number."""
+        xi = self.friction_coefficient
+        return self._length_std(0.25 * (1.0 + xi), xi * self.shear_modulus)
+
+    def _length_std(self, factor: float, stress: float) -> float:
+        """Standard error of factor Gamma_o/(stress + tau_w) [m], to first order."""
+        stress += self.wear_strength
+        if not self.is_physical or stress == 0.0:
+            return np.nan
+        gradient = (factor / stress) * np.array([1.0, -self.toughness / stress])
+        return float(np.sqrt(gradient @ self.covariance @ gradient))
+
+    def scene(self, wire_radius: ArrayLike) -> Scene:
+        """Return the scene of the identified material and a wire of any radius [m].
+
+        Raises
+        ------
+        InputError
+            If an estimate is negative.
+        """
+        return Scene(
+            shear_modulus=self.shear_modulus,
+            toughness=self.toughness,
+            wire_radius=wire_radius,
+            friction_coefficient=self.friction_coefficient,
+            wear_strength=self.wear_strength,
+            stiffening_exponent=self.stiffening_exponent,
+        )
+
+    def predict(self, wire_radius: ArrayLike) -> Array:
+        """Return the fitted F_ss/T [N/m] for wires of any radius [m], 0 included.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or not a number.
+        DomainError
+            If the model does not reach to g = Gamma_o/(mu R_w) of a wire.
+        """
+        if self.profile is not None:
+            radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+            at = np.array([self.toughness]), np.array([self.wear_strength])
+            return np.asarray(self._forces(*at, radius)[0].reshape(radius.shape))
+        columns, offset = self._linear_form(wire_radius)
+        return np.asarray(offset + columns @ np.array([self.toughness, self.wear_strength]))
+
+    def predict_std(self, wire_radius: ArrayLike) -> Array:
+        """Return the standard error of the fitted F_ss/T [N/m] for wires of any radius [m]."""
+        columns = self._columns(wire_radius)
+        variance = np.einsum("...i,ij,...j", columns, self.covariance, columns)
+        return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
+
+    def band(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
+        """Return the confidence band of the fitted force [N/m] at any radius [m].
+
+        With `profile`, from the smallest to the largest force of any material that it admits.
+        """
+        if self.profile is not None:
+            radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+            if not self.profile.admitted.size:
+                return np.full(radius.shape, np.nan), np.full(radius.shape, np.nan)
+            gamma, low, high = self.profile.admitted
+            return (
+                self._forces(gamma, low, radius).min(axis=0).reshape(radius.shape),
+                self._forces(gamma, high, radius).max(axis=0).reshape(radius.shape),
+            )
+        half_width = self._quantile * self.predict_std(wire_radius)
+        line = self.predict(wire_radius)
+        return line - half_width, line + half_width
+
+    def _forces(self, toughness: Array, wear_strength: Array, radius: Array) -> Array:
+        model = force_model(self.model)
+        with np.errstate(all="ignore"):
+            g = toughness[:, np.newaxis] / (self.shear_modulus * radius.reshape(-1))
+        if model.g.lower > 0.0 or model.g.upper < LARGEST:
+            model.g.checked(g)
+        return forces_of(model, self.cuts, toughness, wear_strength, radius.reshape(-1))
+
+    def _columns(self, wire_radius: ArrayLike) -> Array:
+        """Return the derivatives of the force by toughness and wear strength, last axis 2."""
+        if self.profile is None:
+            return self._linear_form(wire_radius)[0]
+        radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+        at = self.shear_modulus, self.toughness, radius, self.friction_coefficient
+        with np.errstate(all="ignore"):
+            slopes = force_model(self.model).gradient(
+                *at, self.wear_strength, self.stiffening_exponent
+            )
+        both = [np.broadcast_to(slopes[i], radius.shape) for i in (1, 4)]
+        return np.asarray(np.stack(both, axis=-1))
+
+    @property
+    def _quantile(self) -> float:
+        if self.force_std is not None:
+            return normal_quantile(self.confidence)
+        return student_quantile(self.confidence, self.dof) if self.dof > 0 else np.nan
+
+    def _interval(self, estimate: float, std: float) -> tuple[float, float]:
+        half_width = self._quantile * std
+        return estimate - half_width, estimate + half_width
+
+    def _linear_form(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
+        radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+        return linear_form(self.model, radius, self.shear_modulus, self.friction_coefficient)
+
+
+def _hull(intervals: tuple[Interval, ...]) -> tuple[float, float]:
+    """Return the smallest and the largest of all ends; nan where there are none."""
+    ends = [end for interval in intervals for end in interval]
+    return min(ends, default=np.nan), max(ends, default=np.nan)

@@ -1,0 +1,92 @@
+"""Toughness and wear strength where the force is linear in both: one weighted least squares."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from surrogate.cuts import Array, Cuts
+from surrogate.errors import InputError
+from surrogate.force_models import ClosedForm, force_model
+from surrogate.least_squares import solve_least_squares
+
+__all__ = ["fit_line", "is_linear", "linear_form"]
+
+
+def is_linear(model: str) -> bool:
+    """Return whether the force of a model is linear in toughness and wear strength.
+
+    Examples
+    --------
+    >>> is_linear("eq13"), is_linear("eq9")
+    (True, False)
+    """
+    chosen = force_model(model)
+    return isinstance(chosen, ClosedForm) and chosen.arc_2 > 0.0
+
+
+def linear_form(
+    model: str, radius: Array, shear_modulus: float, friction: float
+) -> tuple[Array, Array]:
+    """Return columns and offset with F_ss/T = offset + columns @ (toughness, wear_strength).
+
+    Raises
+    ------
+    InputError
+        If the model is not linear in both.
+
+    Examples
+    --------
+    >>> columns, offset = linear_form("eq13", np.array([1e-4]), 685.0, 0.1)
+    >>> print(columns, offset)
+    [[1.1e+00 4.0e-04]] [0.0274]
+    """
+    chosen = force_model(model)
+    if not isinstance(chosen, ClosedForm) or not is_linear(model):
+        raise InputError(
+            f"model {model!r} is not linear in both toughness and wear strength, so that it "
+            "cannot be fitted here; choose 'eq13', 'low-toughness' or 'friction-free'."
+        )
+    columns = np.empty((*radius.shape, 2))
+    columns[..., 0] = 1.0 + friction * chosen.load_2_slope
+    columns[..., 1] = chosen.arc_2 * radius
+    return columns, chosen.load_2 * (friction * shear_modulus * radius)
+
+
+def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
+    """Return what the fit of a straight line says, by the names of an `Identification`.
+
+    Raises
+    ------
+    InputError
+        If the radii are the same but for rounding.
+
+    Examples
+    --------
+    >>> radius, force = np.array([1e-4, 2e-4, 3e-4]), np.array([3.0, 5.0, 7.0])
+    >>> fit = fit_line(Cuts(radius, force, None, 685.0, 0.0, 2.0), "eq13")
+    >>> print(f"{fit['toughness']:.6f} {fit['wear_strength']:.3f}")
+    1.000000 5000.000
+    """
+    columns, offset = linear_form(
+        model, cuts.wire_radius, cuts.shear_modulus, cuts.friction_coefficient
+    )
+    weight, target = cuts.weight, cuts.force - offset
+    fit = solve_least_squares(columns * weight[:, np.newaxis], target * weight)
+    if not np.isfinite(fit.condition):
+        smallest, largest = cuts.wire_radius.min(), cuts.wire_radius.max()
+        raise InputError(
+            f"the radii differ by rounding only ({smallest:.17g} to {largest:.17g} m): "
+            "toughness and wear cannot be told apart; cut with at least two different wires."
+        )
+    residuals = target - columns @ fit.estimate
+    return {
+        "toughness": float(fit.estimate[0]),
+        "wear_strength": float(fit.estimate[1]),
+        "residuals": residuals,
+        "misfit": float(np.sum((residuals * weight) ** 2)),
+        "unit_covariance": fit.covariance,
+        "condition": fit.condition,
+        "leverage": fit.leverage,
+    }
