@@ -1,3 +1,4 @@
+# PYTHON_ARGCOMPLETE_OK
 """The command `wirecut`: forces, identification and regimes without writing Python."""
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate import __version__, cli_map, report
-from surrogate.command import OneLineParser, run_command
+from surrogate import cli_map, report
+from surrogate.command import OneLineParser, complete, run_command
 from surrogate.data import Material, read_material, read_measurements
 from surrogate.errors import InputError
 from surrogate.force import cutting_force
@@ -42,6 +43,7 @@ _DESCRIPTIONS = {
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
     "models": "The force models that --model accepts.",
+    "doctor": "What is installed, whether the shipped files are whole, and a self-test.",
 }
 
 _EXAMPLES = {
@@ -85,6 +87,10 @@ example:
 example:
   wirecut models --json
 """,
+    "doctor": """\
+example:
+  wirecut doctor
+""",
 }
 
 
@@ -113,9 +119,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> int:
-    options = _parser().parse_args(arguments)
-    options.run(options)
-    return 0
+    parser = _parser()
+    complete(parser)
+    options = parser.parse_args(arguments)
+    return options.run(options) or 0
 
 
 class _Parser(OneLineParser):
@@ -132,9 +139,19 @@ class _Parser(OneLineParser):
         )
 
 
+class _Version(argparse.Action):
+    """Prints the versions, which takes a look at every shipped file."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from surrogate.installation import version_text
+
+        print(version_text())
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="wirecut")
-    parser.add_argument("--version", action="version", version=f"wirecut {__version__}")
+    parser.add_argument("--version", action=_Version, nargs=0, help="versions of code and data")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     for name, add_options, run in (
         ("force", _add_force_options, _force),
@@ -142,6 +159,7 @@ def _parser() -> argparse.ArgumentParser:
         ("regime", _add_regime_options, _regime),
         ("map", lambda command: cli_map.add_options(command, _quantity), _map),
         ("models", lambda command: None, _models),
+        ("doctor", lambda command: None, _doctor),
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
         add_options(command)
@@ -297,6 +315,14 @@ def _map(options: argparse.Namespace) -> None:
 
 def _models(options: argparse.Namespace) -> None:
     _print(options, report.models_record(), report.models_text)
+
+
+def _doctor(options: argparse.Namespace) -> int:
+    from surrogate.installation import doctor_record, doctor_text
+
+    record = doctor_record()
+    _print(options, record, doctor_text)
+    return 0 if record["healthy"] else 1
 
 
 def _identify(options: argparse.Namespace) -> None:

@@ -13,6 +13,7 @@ from surrogate.data import read_material, read_measurements
 from surrogate.errors import InputError
 from surrogate.identification import identify
 from surrogate.map_axes import COORDINATES, coordinate
+from surrogate.map_export import map_summary
 from surrogate.map_points import MapPoints
 from surrogate.map_presets import PRESETS, Preset
 from surrogate.maps import RegimeMap, regime_map
@@ -98,33 +99,7 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     if options.boundaries_csv:
         made.boundaries_to_csv(options.boundaries_csv)
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
-    return {**record(made), "files": files}
-
-
-def record(made: RegimeMap) -> dict[str, Any]:
-    """Return a map's regimes and boundaries as numbers and words."""
-    regimes = np.unique(made.regime.dominant, return_counts=True)
-    total = made.regime.dominant.size  # type: ignore[union-attr]
-    return {
-        "model": made.model,
-        "x": _axis_record(made.x),
-        "y": _axis_record(made.y),
-        "fixed": dict(made.fixed),
-        "threshold": made.regime.threshold,
-        "regimes": {str(n): int(c) / total for n, c in zip(*regimes, strict=True)},
-        "in_domain": float(np.mean(made.force.in_domain)),
-        "boundaries": [
-            {
-                "kind": one.kind,
-                "equation": one.equation,
-                "exact": one.exact,
-                "lines": [
-                    {"start": line[0].tolist(), "end": line[-1].tolist()} for line in one.lines
-                ],
-            }
-            for one in made.boundaries
-        ],
-    }
+    return {**map_summary(made), "files": files}
 
 
 def map_text(made: dict[str, Any]) -> str:
@@ -205,16 +180,6 @@ def _example() -> list[MapPoints]:
     material = read_material(model_file("paam-material.json"))
     fit = identify(cuts.wire_radius, cuts.force, material.shear_modulus or np.nan)
     return [MapPoints(fit.scene(cuts.wire_radius), "PAAm, Eq. (13)")]
-
-
-def _axis_record(axis: Any) -> dict[str, Any]:
-    return {
-        "name": axis.name,
-        "unit": axis.unit,
-        "low": float(axis.values[0]),
-        "high": float(axis.values[-1]),
-        "scale": axis.scale,
-    }
 
 
 def _range(axis: dict[str, Any]) -> str:

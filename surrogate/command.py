@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from surrogate.errors import InputError, WirecutError
 
-__all__ = ["OneLineParser", "run_command"]
+__all__ = ["OneLineParser", "complete", "run_command"]
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -19,6 +19,19 @@ class OneLineParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Refuse the arguments."""
         raise InputError(f"{message}; see '{self.prog} --help'.")
+
+
+def complete(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell's question for completions by argcomplete, where it asks one.
+
+    Examples
+    --------
+    >>> complete(OneLineParser(prog="wirecut"))
+    """
+    if "_ARGCOMPLETE" in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser)
 
 
 def run_command(

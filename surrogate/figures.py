@@ -31,6 +31,7 @@ __all__ = [
     "picture_file",
     "require_matplotlib",
     "save_figure",
+    "write_svg",
 ]
 
 SINGLE_COLUMN = (3.4, 2.9)
@@ -132,14 +133,22 @@ def save_figure(figure: Figure, file: str | PathLike[str]) -> None:
         If the format is unknown or the file cannot be written.
     """
     name = picture_file(file)
-    from matplotlib import rc_context
-
-    metadata = _METADATA[PurePath(name).suffix.lower()]
     try:
-        with rc_context(_FILE_STYLE):
-            figure.savefig(name, dpi=300, metadata=metadata)
+        _write(figure, name, PurePath(name).suffix.lower())
     except OSError as error:
         raise InputError(f"{name} cannot be written ({error.strerror}); choose another.") from None
+
+
+def write_svg(figure: Figure, stream: Any) -> None:
+    """Write a figure as SVG into an open stream of text."""
+    _write(figure, stream, ".svg")
+
+
+def _write(figure: Figure, file: Any, ending: str) -> None:
+    from matplotlib import rc_context
+
+    with rc_context(_FILE_STYLE):
+        figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
 
 
 def legend_above(ax: Axes, columns: int, handles: list[Any] | None = None) -> None:

@@ -9,14 +9,14 @@ import numpy as np
 
 from surrogate.errors import WirecutError
 from surrogate.export import write_csv
-from surrogate.map_axes import COORDINATES
+from surrogate.map_axes import COORDINATES, MapAxis
 
 if TYPE_CHECKING:
     import xarray
 
     from surrogate.maps import RegimeMap
 
-__all__ = ["about_map", "map_dataset", "write_boundaries", "write_map"]
+__all__ = ["about_map", "map_dataset", "map_summary", "write_boundaries", "write_map"]
 
 
 def about_map(made: RegimeMap) -> list[str]:
@@ -102,3 +102,39 @@ def map_dataset(made: RegimeMap) -> xarray.Dataset:
         for (name, unit), values in _columns(made).items()
     }
     return xarray.Dataset(fields, coords=axes, attrs={"about": "; ".join(about_map(made))})
+
+
+def map_summary(made: RegimeMap) -> dict[str, Any]:
+    """Return a map's regimes and boundaries as numbers and words."""
+    regimes = np.unique(made.regime.dominant, return_counts=True)
+    total = made.regime.dominant.size  # type: ignore[union-attr]
+    return {
+        "model": made.model,
+        "x": _axis_record(made.x),
+        "y": _axis_record(made.y),
+        "fixed": dict(made.fixed),
+        "threshold": made.regime.threshold,
+        "regimes": {str(n): int(c) / total for n, c in zip(*regimes, strict=True)},
+        "in_domain": float(np.mean(made.force.in_domain)),
+        "boundaries": [
+            {
+                "kind": one.kind,
+                "equation": one.equation,
+                "exact": one.exact,
+                "lines": [
+                    {"start": line[0].tolist(), "end": line[-1].tolist()} for line in one.lines
+                ],
+            }
+            for one in made.boundaries
+        ],
+    }
+
+
+def _axis_record(axis: MapAxis) -> dict[str, Any]:
+    return {
+        "name": axis.name,
+        "unit": axis.unit,
+        "low": float(axis.values[0]),
+        "high": float(axis.values[-1]),
+        "scale": axis.scale,
+    }

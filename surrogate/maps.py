@@ -125,6 +125,12 @@ class RegimeMap:
         with np.errstate(all="ignore"):
             return ratio(part, np.asarray(self.force.total))  # type: ignore[no-any-return]
 
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_map
+
+        return html_of_map(self)
+
     def scene_at(self, x: ArrayLike, y: ArrayLike) -> Scene:
         """Return what is cut at places of the map [units of its axes].
 

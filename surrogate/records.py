@@ -29,3 +29,9 @@ class Record:
 
     def __hash__(self) -> int:
         return hash(self._values())
+
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_record
+
+        return html_of_record(self)

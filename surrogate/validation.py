@@ -91,6 +91,10 @@ class Quantity:
 
     def _converted(self, value: object) -> FloatOrArray:
         """Return `value` as a float or a float64 array, whatever its numbers."""
+        if "pint" in sys.modules:
+            from surrogate.pint_quantities import without_units
+
+            value = without_units(value, self.name, self.unit, self.remedy)
         array = _plain_array(value)
         if array is None or array.dtype.kind not in "iuf":
             raise self._refused(value, array)

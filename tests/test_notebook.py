@@ -1,0 +1,67 @@
+"""What notebooks show of results."""
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from surrogate import Scene, classify, cutting_force, regime_map
+from surrogate.notebook import html_table
+
+GEL = Scene(685.0, 1.6, [1e-5, 2e-4], wear_strength=7750.0)
+
+
+def cells(html):
+    table = ElementTree.fromstring(html[: html.index("</table>") + len("</table>")])
+    return [[cell.text or "" for cell in row] for row in table if row.tag == "tr"]
+
+
+def test_a_scene_with_units():
+    rows = {name: (value, unit) for name, value, unit in cells(GEL._repr_html_())}
+    assert rows["shear_modulus"] == ("685", "Pa")
+    assert rows["toughness"] == ("1.6", "J/m^2")
+    assert rows["wire_radius"] == (
+        "2 values, 1e-05 to 0.0002",
+        "m",
+    )
+    assert rows["stiffening_exponent"] == ("2", "")
+
+
+def test_a_force_and_a_regime():
+    rows = {name: (value, unit) for name, value, unit in cells(cutting_force(GEL)._repr_html_())}
+    assert rows["total"] == ("2 values, 1.91 to 7.8", "N/m")
+    assert rows["relative_error"][0] == "unknown"
+    assert rows["model"][0] == "eq13"
+    rows = {name: value for name, value, _ in cells(classify(GEL)._repr_html_())}
+    assert rows["dominant"] == "2 values: toughness-and-friction, wear"
+
+
+def test_arrays_without_numbers():
+    empty = Scene(1.0, np.empty(0), 1.0)
+    rows = {name: value for name, value, _ in cells(empty._repr_html_())}
+    assert rows["toughness"] == "0 values"
+    infinite = cutting_force(Scene(1.0, [1e308, 1e308], 1.0, 10.0))
+    rows = {name: value for name, value, _ in cells(infinite._repr_html_())}
+    assert rows["total"] == "2 values, none finite"
+
+
+def test_markup_in_values_is_escaped():
+    assert cells(html_table("<x>", [("a<b", "&", "")])) == [["a<b", "&", ""]]
+
+
+def test_a_map_with_its_picture():
+    pytest.importorskip("matplotlib")
+    made = regime_map("R_w/l_e", "R_w/l_w", ((1e-2, 10), (1e-2, 10)), {"xi": 0.1}, nodes=31)
+    html = made._repr_html_()
+    rows = cells(html)
+    assert ["x", "R_w/l_e 0.01 to 10", ""] in rows
+    assert ["equal-terms", "(1 + xi) Gamma_o = 4 tau_w R_w", ""] in rows
+    assert re.search(r"<svg[\s\S]*wear[\s\S]*</svg>", html)
+    assert html == made._repr_html_()
+
+
+def test_a_map_without_matplotlib(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    made = regime_map("R_w/l_e", "R_w/l_w", ((1e-2, 10), (1e-2, 10)), {"xi": 0.1}, nodes=5)
+    assert "<svg" not in made._repr_html_()
