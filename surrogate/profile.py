@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from surrogate.errors import DomainError, InputError
 from surrogate.misfit import Misfit
+from surrogate.narrowing import narrowed
 
 __all__ = ["Mode", "Profile", "profile_misfit"]
 
@@ -22,9 +23,6 @@ DECADES = 15.0
 
 ROUNDING = 1e3 * np.finfo(float).eps
 """Height, over the forces' own sum of squares, from which a barrier between minima counts."""
-
-SECTIONS = 16
-"""Parts into which an interval that holds a minimum or an edge is divided at a time."""
 
 INSIDE = 64
 """Toughnesses at which each admitted interval is looked at, besides those of the scan."""
@@ -202,7 +200,7 @@ def _minima(misfit: Misfit, scan: Array, heights: Array) -> Array:
     interior = scan[scan > 0.0]
     slope = misfit.slope(interior)
     turns = (slope[:-1] < 0.0) & (slope[1:] >= 0.0)
-    falling = _narrowed(lambda x: misfit.slope(x) < 0.0, interior[:-1][turns], interior[1:][turns])
+    falling = narrowed(lambda x: misfit.slope(x) < 0.0, interior[:-1][turns], interior[1:][turns])
     found = [np.nextafter(falling, np.inf)]
     has_zero = interior.size < scan.size
     if has_zero and heights[0] <= heights[1] and (slope[0] >= 0.0 or heights[0] == heights.min()):
@@ -228,19 +226,6 @@ def _without_ripples(misfit: Misfit, minima: Array, scan: Array, heights: Array)
     return np.array([gamma for gamma, _ in kept])
 
 
-def _narrowed(holds: Callable[[Array], NDArray[np.bool_]], yes: Array, no: Array) -> Array:
-    """Return the last numbers at which a condition holds, between where it does and does not."""
-    shares = np.linspace(0.0, 1.0, SECTIONS + 1)
-    while np.any(((middle := 0.5 * (yes + no)) != yes) & (middle != no)):
-        x = yes[:, np.newaxis] + (no - yes)[:, np.newaxis] * shares
-        x[:, -1] = no
-        inner = holds(x[:, 1:-1].ravel()).reshape(yes.size, -1)
-        first_no = 1 + np.argmin(np.column_stack([inner, np.zeros(yes.size, bool)]), axis=1)
-        rows = np.arange(yes.size)
-        yes, no = x[rows, first_no - 1], x[rows, first_no]
-    return yes
-
-
 def _pieces(misfit: Misfit, points: Array, heights: Array, limit: float) -> list[Interval]:
     """Return the intervals of toughness whose misfit is at most the limit."""
     if not np.isfinite(limit):
@@ -251,7 +236,7 @@ def _pieces(misfit: Misfit, points: Array, heights: Array, limit: float) -> list
     stops = np.flatnonzero(inside & ~np.append(inside[1:], False))
     lows, highs = points[starts], points[stops]
     begins, ends = starts > 0, stops < points.size - 1
-    edges = _narrowed(
+    edges = narrowed(
         lambda x: misfit.at(x).misfit <= limit,
         np.concatenate([lows[begins], highs[ends]]),
         np.concatenate([points[starts[begins] - 1], points[stops[ends] + 1]]),

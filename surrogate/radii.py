@@ -18,6 +18,7 @@ from surrogate.elementwise import (
     quotient,
     where_normal,
 )
+from surrogate.force_models import force_model
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import TOUGHNESS, WORK_OF_FRACTURE, FloatOrArray, defined
 
@@ -27,29 +28,45 @@ NO_POWER = -9999
 """Power of two of zero: less than any product of two numbers has."""
 
 
-def transition_radius(scene: Scene) -> FloatOrArray:
-    """Return the radius at which the two terms of Eq. (13) are equal.
+def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
+    """Return the radius at which the two terms of Eq. (13), or of another model, are equal.
+
+    The force is homogeneous of degree one in toughness and radius, so that by Euler's theorem it
+    is the sum of Gamma_o dF/dGamma_o and R_w dF/dR_w: of what the radius does not change and what
+    changes with it. The first is where the tangent of the force over the radius meets the axis.
+    In Eq. (13) they are (1 + xi) Gamma_o and 4 (xi mu + tau_w) R_w.
 
     Parameters
     ----------
     scene : Scene
-        What is cut, in SI units; mu [Pa], Gamma_o [J/m^2], xi [-] and tau_w [Pa] play a part.
+        What is cut, in SI units; mu [Pa], Gamma_o [J/m^2], xi [-], tau_w [Pa] and, for models
+        that depend on it, alpha [-] play a part.
+    model : str, default "eq13"
+        As in `cutting_force`.
 
     Returns
     -------
     float or ndarray
-        R_w* = (1 + xi) Gamma_o / (4 (xi mu + tau_w)) [m]; infinite where xi mu + tau_w = 0.
+        R_w* [m], for Eq. (13) (1 + xi) Gamma_o / (4 (xi mu + tau_w)). Where several radii would
+        do, the smallest: for every thinner wire the radius matters less than the toughness.
+        Infinite where the part that changes with the radius nowhere reaches the other, as where
+        xi mu + tau_w = 0; 0 where it is larger for every wire, as where Gamma_o = 0.
 
     Raises
     ------
     InputError
         If `scene` is not a `Scene`.
+    UnknownModelError
+        If there is no such model.
     DomainError
-        If Gamma_o and xi mu + tau_w are both 0: every radius would do.
+        If Gamma_o and xi mu + tau_w are both 0: every radius would do; if the model does not
+        reach to alpha or to the radius; or if it needs a shear modulus, which is 0.
 
     Notes
     -----
-    Range of validity: that of Eq. (13). With xi = 0 this is `wear_transition_radius`.
+    Range of validity: that of the model. With xi = 0 and Eq. (13) this is
+    `wear_transition_radius`. For models other than closed forms the search takes 24 g a decade;
+    of several radii that lie closer together it may miss two.
 
     References
     ----------
@@ -68,7 +85,10 @@ def transition_radius(scene: Scene) -> FloatOrArray:
         scene.friction_coefficient,
         scene.wear_strength,
     )
-    radius = apply(_transition, quantities)
+    if model == "eq13":
+        radius = apply(_transition, quantities)
+    else:
+        radius = _under(model, (*quantities, scene.stiffening_exponent))
     return defined("transition_radius", radius, "give a toughness, a friction or a wear strength")
 
 
@@ -151,6 +171,14 @@ def fracto_cohesive_transition_radius(
     radius = evaluate_checked(_quarter, quantities, (toughness, work_of_fracture))
     remedy = "give a toughness or a work of fracture"
     return defined("fracto_cohesive_transition_radius", radius, remedy)
+
+
+def _under(model: str, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
+    from surrogate.model_transition import transition_under  # which a force does not need
+
+    chosen = force_model(model)
+    chosen.stiffening.checked(quantities[4])
+    return transition_under(chosen, quantities)
 
 
 def _transition(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
