@@ -24,7 +24,7 @@ from surrogate.equations import (
     power_law_exponent,
     relative_force,
 )
-from surrogate.errors import DomainError, InputError, UnknownModelError, WirecutError
+from surrogate.errors import AccuracyError, DomainError, InputError, UnknownModelError, WirecutError
 from surrogate.force import CuttingForce, cutting_force, dissipative_force
 from surrogate.force_models import FORCE_MODELS
 from surrogate.radii import (
@@ -36,6 +36,8 @@ from surrogate.regimes import Regime, classify
 from surrogate.scene import Scene
 
 if TYPE_CHECKING:
+    from surrogate.catalogue import ModelInfo, models
+    from surrogate.contact import ContactFunctions, contact_functions, energy_release_rate
     from surrogate.data import Material, Measurements, read_material, read_measurements
     from surrogate.design import Design, design_radii
     from surrogate.gradient import ForceGradient, force_gradient
@@ -50,6 +52,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "FORCE_MODELS",
+    "AccuracyError",
+    "ContactFunctions",
     "CuttingForce",
     "Design",
     "DomainError",
@@ -59,6 +63,7 @@ __all__ = [
     "MapPoints",
     "Material",
     "Measurements",
+    "ModelInfo",
     "Regime",
     "RegimeMap",
     "Scene",
@@ -66,9 +71,11 @@ __all__ = [
     "UnknownModelError",
     "WirecutError",
     "classify",
+    "contact_functions",
     "cutting_force",
     "design_radii",
     "dissipative_force",
+    "energy_release_rate",
     "far_field_energy_release_rate",
     "force_gradient",
     "fracto_cohesive_transition_radius",
@@ -78,6 +85,7 @@ __all__ = [
     "identify",
     "low_toughness_dissipation",
     "low_toughness_force",
+    "models",
     "plot_identification",
     "plot_regime_map",
     "power_law_dissipation",
@@ -93,17 +101,22 @@ __all__ = [
 
 # What a force does not need is loaded at first use, which keeps `import surrogate` quick.
 _LAZY = {
+    "ContactFunctions": "contact",
     "Design": "design",
     "ForceGradient": "gradient",
     "Identification": "identification",
     "MapPoints": "map_points",
     "Material": "data",
     "Measurements": "data",
+    "ModelInfo": "catalogue",
     "RegimeMap": "maps",
     "UncertainForce": "propagation",
+    "contact_functions": "contact",
     "design_radii": "design",
+    "energy_release_rate": "contact",
     "force_gradient": "gradient",
     "identify": "identification",
+    "models": "catalogue",
     "plot_identification": "plots",
     "plot_regime_map": "map_plots",
     "propagate": "propagation",

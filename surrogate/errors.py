@@ -1,6 +1,6 @@
 """The errors that this library raises on purpose; catch `WirecutError` for all of them."""
 
-__all__ = ["DomainError", "InputError", "UnknownModelError", "WirecutError"]
+__all__ = ["AccuracyError", "DomainError", "InputError", "UnknownModelError", "WirecutError"]
 
 
 class WirecutError(Exception):
@@ -17,3 +17,7 @@ class DomainError(InputError):
 
 class UnknownModelError(InputError):
     """A model name that is not registered; the message lists those that are."""
+
+
+class AccuracyError(InputError):
+    """An accuracy that no model offers; the message names the best one and its error."""

@@ -10,13 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.elementwise import apply, evaluate_checked
-from surrogate.equations import DIMENSIONLESS_TOUGHNESS, RELATIVE_WEAR_STRENGTH
-from surrogate.force_models import force_model
+from surrogate.equations import RELATIVE_WEAR_STRENGTH
+from surrogate.force_models import FITTED_NAMES, force_model
+from surrogate.inside import require_inside
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
-from surrogate.validation import FRICTION_COEFFICIENT, FloatOrArray, Quantity
+from surrogate.validation import FRICTION_COEFFICIENT, FloatOrArray, Quantity, broadcast_shape
 
-__all__ = ["CuttingForce", "cutting_force", "dissipative_force"]
+__all__ = ["AUTO", "CuttingForce", "cutting_force", "dissipative_force"]
+
+AUTO = "auto"
+"""The model that stands for the cheapest one that is exact enough."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,11 +41,13 @@ class CuttingForce(Record):
     wear : float or ndarray
         Part of wear, 2 R_w tau_w A [N/m].
     model : str
-        Name of the model.
+        Name of the model; "auto" where the points have several.
     relative_error : float, ndarray or None
         Known bound of the relative error of `total` [-]; None where nobody knows one.
     in_domain : bool or ndarray of bool
         Whether the model's own condition holds.
+    chosen : str or ndarray of str
+        Name of the model of each point.
 
     References
     ----------
@@ -61,9 +67,12 @@ class CuttingForce(Record):
     model: str
     relative_error: FloatOrArray | None
     in_domain: bool | NDArray[np.bool_]
+    chosen: str | NDArray[np.str_] = ""
 
 
-def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
+def cutting_force(
+    scene: Scene, model: str = "eq13", rtol: float = 0.02, extrapolate: bool = False
+) -> CuttingForce:
     """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (13).
 
     Parameters
@@ -73,7 +82,13 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     model : str, default "eq13"
         "eq13" for Eq. (13), "high-toughness" for Eq. (10), "low-toughness" for Eq. (12),
         "friction-free" for Eq. (15), or "eq9" for Eq. (9) with the exponents of Table 1,
-        linear in alpha between them.
+        linear in alpha between them; "power-law", "table" or "gp" for those fitted to finite
+        elements; "auto" for the cheapest one that meets `rtol`, at each point by itself.
+    rtol : float, default 0.02
+        Relative error that will do with "auto" [-].
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
+        the nearest alpha.
 
     Returns
     -------
@@ -83,18 +98,22 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     Raises
     ------
     InputError
-        If `scene` is not a `Scene`.
+        If `scene` is not a `Scene`, or a fitted model's file is missing or damaged.
     UnknownModelError
         If there is no such model.
     DomainError
-        If alpha is outside Table 1, 2 to 9, and the model is "eq9".
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
+        domain of a fitted model and `extrapolate` is not set.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`; the message names the best one.
 
     Notes
     -----
     Range of validity: >> is taken to mean a factor of 10 (`MUCH_GREATER`). Outside its range a
-    model answers all the same, with `in_domain` False. "eq13": any. "high-toughness" and
+    closed form answers all the same, with `in_domain` False. "eq13": any. "high-toughness" and
     "eq9": Gamma_o >= 10 mu R_w and Gamma_o > 0. "low-toughness": Gamma_o <= mu R_w.
-    "friction-free": xi = 0, or 10 xi <= 1 and 10 xi mu <= tau_w.
+    "friction-free": xi = 0, or 10 xi <= 1 and 10 xi mu <= tau_w. Those of the fitted models are
+    given by `models`. Where xi = tau_w = 0 the force is Gamma_o by any of them.
 
     Limits at xi, tau_w, mu, R_w or Gamma_o = 0 are exact, at all of them together too; only
     "eq9", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are both
@@ -102,7 +121,7 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
 
     References
     ----------
-    arXiv:2412.02021, Eqs. (9), (10), (12), (13) and (15), Table 1.
+    arXiv:2412.02021, Eqs. (9), (10), (12), (13), (15) and (S2), Table 1.
 
     Examples
     --------
@@ -113,9 +132,16 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
+    if isinstance(model, str) and model == AUTO:
+        require_scene(scene)
+        return _automatic(scene, rtol, extrapolate)
     chosen = force_model(model)
     require_scene(scene)
-    chosen.stiffening.checked(scene.stiffening_exponent)
+    fitted = chosen.name in FITTED_NAMES
+    if not fitted:
+        chosen.stiffening.checked(scene.stiffening_exponent)
+    elif not extrapolate:
+        require_inside(chosen, scene.values())
 
     def parts(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any, alpha: Any) -> tuple[Any, ...]:
         cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
@@ -126,7 +152,17 @@ def cutting_force(scene: Scene, model: str = "eq13") -> CuttingForce:
     total, cleavage, friction, wear, holds = apply(
         parts, scene.values(), (float, float, float, float, bool)
     )
-    return CuttingForce(total, cleavage, friction, wear, model, None, holds)
+    return CuttingForce(total, cleavage, friction, wear, model, None, holds, model)
+
+
+def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
+    from surrogate.automatic import automatic_terms, one_name
+
+    friction, wear, holds, names, bound = automatic_terms(scene.values(), rtol, extrapolate)
+    cleavage = np.add(np.broadcast_to(scene.toughness, scene.shape), 0.0)
+    cleavage = cleavage if scene.shape else float(cleavage)
+    total = cleavage + friction + wear
+    return CuttingForce(total, cleavage, friction, wear, one_name(names), bound, holds, names)
 
 
 def dissipative_force(
@@ -135,6 +171,8 @@ def dissipative_force(
     friction_coefficient: ArrayLike,
     relative_wear_strength: ArrayLike,
     model: str = "eq13",
+    rtol: float = 0.02,
+    extrapolate: bool = False,
 ) -> FloatOrArray:
     """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
 
@@ -150,6 +188,10 @@ def dissipative_force(
         tau_w/mu [-].
     model : str, default "eq13"
         As in `cutting_force`.
+    rtol : float, default 0.02
+        Relative error of this force that will do with "auto" [-].
+    extrapolate : bool, default False
+        As in `cutting_force`.
 
     Returns
     -------
@@ -163,7 +205,10 @@ def dissipative_force(
     UnknownModelError
         If there is no such model.
     DomainError
-        If alpha is outside Table 1, 2 to 9, and the model is "eq9".
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
+        domain of a fitted model and `extrapolate` is not set.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
 
     Notes
     -----
@@ -180,22 +225,32 @@ def dissipative_force(
     >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
     1.5136
     """
-    chosen = force_model(model)
+    values = (g, alpha, friction_coefficient, relative_wear_strength)
+    automatic = isinstance(model, str) and model == AUTO
+    chosen = force_model("table" if automatic else model)
+    in_g, in_alpha = chosen.accepted(extrapolate)
+    quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
+    if automatic:
+        return _automatic_dissipation(quantities, values, rtol, extrapolate)
 
     def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
         friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
         return friction + wear
 
-    return evaluate_checked(
-        dissipation,
-        (
-            DIMENSIONLESS_TOUGHNESS,
-            _as_alpha(chosen.stiffening),
-            FRICTION_COEFFICIENT,
-            RELATIVE_WEAR_STRENGTH,
-        ),
-        (g, alpha, friction_coefficient, relative_wear_strength),
-    )
+    return evaluate_checked(dissipation, quantities, values)
+
+
+def _automatic_dissipation(
+    quantities: tuple[Quantity, ...], values: tuple[Any, ...], rtol: float, extrapolate: bool
+) -> FloatOrArray:
+    from surrogate.automatic import automatic_terms
+
+    checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
+    broadcast_shape(tuple(q.name for q in quantities), checked)
+    g, alpha, xi, relative_wear = checked
+    scene = (1.0, g, 1.0, xi, relative_wear, alpha)
+    friction, wear, *_ = automatic_terms(scene, rtol, extrapolate, of_dissipation=True)
+    return friction + wear  # type: ignore[no-any-return]
 
 
 @cache

@@ -13,7 +13,7 @@ All methods work on validated floats as well as on float64 blocks; nothing is ch
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -31,7 +31,15 @@ from surrogate.equations import (
 from surrogate.errors import UnknownModelError
 from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
-__all__ = ["FORCE_MODELS", "MUCH_GREATER", "ClosedForm", "ForceModel", "PowerLaw", "force_model"]
+__all__ = [
+    "FITTED_NAMES",
+    "FORCE_MODELS",
+    "MUCH_GREATER",
+    "ClosedForm",
+    "ForceModel",
+    "PowerLaw",
+    "force_model",
+]
 
 MUCH_GREATER = 10.0
 """The factor that >> and << in the paper's conditions are taken to mean."""
@@ -50,6 +58,7 @@ class ForceModel(ABC):
     domain: str
     stiffening: Quantity  # the alpha that the model accepts
     g: Quantity = DIMENSIONLESS_TOUGHNESS  # and the g
+    uncertain = False  # whether it knows its standard deviations
 
     @abstractmethod
     def arc(self, g: Any, alpha: Any) -> Any:
@@ -67,9 +76,41 @@ class ForceModel(ABC):
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         """Return dB/dg and dB/dalpha [-], from above where B bends."""
 
+    def distance(self, g: Any, alpha: Any) -> Any:
+        """Return delta/R_w [-], 1 from the touch on; by Eq. (5) where a model has no own."""
+        with np.errstate(all="ignore"):
+            return where(g < 1.0, 1.0 / np.sqrt(g), 1.0)
+
+    def energy_release_rate(self, distance: Any, alpha: Any) -> Any:
+        """Return J/(mu R_w) [-] at delta/R_w above 1: the inverse of `distance`."""
+        return (1.0 / distance) * (1.0 / distance)
+
+    def touch(self, alpha: Any) -> Any:
+        """Return g at which the tip begins to touch the wire [-]."""
+        return 1.0
+
+    def contact(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
+        """Return "arc", "normal_load" or "distance", as named, and no other is evaluated."""
+        return [getattr(self, name)(g, alpha) for name in names]
+
+    def accepted(self, extrapolate: bool) -> tuple[Quantity, Quantity]:
+        """Return the g and the alpha that the model takes."""
+        return self.g, self.stiffening
+
+    def holds(self, g: Any, alpha: Any) -> Any:
+        """Return whether the model holds at g and alpha, as far as these decide."""
+        return True
+
+    def stds(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
+        """Return the standard deviations of the functions named; none where the model has none."""
+        return []
+
     def contact_std(self, g: Any, alpha: Any) -> tuple[Any, Any] | None:
         """Return the standard deviations of A and B [-], or None where the model knows none."""
-        return None
+        if not self.uncertain:
+            return None
+        arc, load = self.stds(("arc", "normal_load"), g, alpha)
+        return arc, load
 
     @abstractmethod
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
@@ -273,7 +314,11 @@ FORCE_MODELS = _by_name(
     ),
     PowerLaw(),
 )
-"""Every model by its name."""
+"""Every closed form by its name."""
+
+
+FITTED_NAMES = ("power-law", "table", "gp")
+"""The models fitted to finite-element solutions, in rising order of cost."""
 
 
 def force_model(name: object) -> ForceModel:
@@ -283,10 +328,16 @@ def force_model(name: object) -> ForceModel:
     ------
     UnknownModelError
         If there is none; the message lists those that there are.
+    InputError
+        If the model is a fitted one and its file is missing or damaged.
     """
     if isinstance(name, str) and name in FORCE_MODELS:
         return FORCE_MODELS[name]
+    if isinstance(name, str) and name in FITTED_NAMES:
+        from surrogate.fitted import shipped  # which loads what the closed forms do not need
+
+        return shipped().models[name]
     raise UnknownModelError(
         f"model must be the name of a model, but model = {shown(name)}; "
-        f"choose one of {', '.join(FORCE_MODELS)}."
+        f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES))}."
     )

@@ -36,7 +36,9 @@ def sections(name):
 def documented_parameters(name):
     """Return {parameter: its description} of a public name."""
     entries = re.findall(
-        r"^(\w[\w, ]*?) : .*\n((?:[ \n].*\n?)*)", sections(name)["Parameters"] + "\n", re.MULTILINE
+        r"^(\w[\w, ]*?) : .*\n((?:[ \n].*\n?)*)",
+        sections(name).get("Parameters", "") + "\n",
+        re.MULTILINE,
     )
     return {one: text for names, text in entries for one in names.split(", ")}
 

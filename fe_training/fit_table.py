@@ -1,0 +1,71 @@
+"""Tables of A, B and delta made from the means of the Gaussian processes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from surrogate.cell_table import CellTable, Grid
+from surrogate.process_model import ProcessModel
+from surrogate.quantities import QUANTITIES, coordinates
+from surrogate.wedge import wedge_functions, wedge_load
+
+__all__ = ["fit_table"]
+
+Floats = NDArray[np.float64]
+
+SHORT, PAST, STIFFENING = 30, 18, 12
+
+
+def fit_table(
+    process: ProcessModel, cells: tuple[int, int, int] = (SHORT, PAST, STIFFENING)
+) -> CellTable:
+    """Return the table of A, B and (delta - 1)/|x|^(7/4) over the domain of the processes.
+
+    Parameters
+    ----------
+    process : ProcessModel
+        The model that the table is to follow.
+    cells : tuple of int
+        Cells along g short of and past the touch, and along alpha.
+
+    Returns
+    -------
+    CellTable
+    """
+    limits = process.limits
+    lowest_touch = float(np.min(limits.log_touch(np.linspace(*limits.log_alpha, 101))))
+    beyond = max(limits.log_g[1] - lowest_touch, 0.5)
+    grid = Grid(limits.log_g[0], beyond, limits.log_alpha, limits.touch, *cells)
+    places, rows = grid.nodes()
+    log_g = grid.log_g_of(places[:, np.newaxis], rows)
+    # beyond the domain, which the last cells overlap, the processes go on smoothly
+    log_alpha = np.broadcast_to(rows, log_g.shape)
+    at = coordinates(log_g.ravel(), log_alpha.ravel(), limits.log_touch(log_alpha).ravel())
+    scales = wedge_functions(log_g, wedge_load(log_g))
+    values = {
+        name: scales[name] * np.exp(process.processes[name].predict_mean(at).reshape(log_g.shape))
+        for name in QUANTITIES
+    }
+    return CellTable(grid, {name: _sides(grid, value) for name, value in values.items()})
+
+
+def _sides(grid: Grid, values: Floats) -> tuple[Floats, Floats]:
+    sides = values[: grid.short + 1], values[grid.short :]
+    # single precision halves the file; nodes that cells share stay shared
+    short, past = (_nodes(side).astype(np.float32).astype(float) for side in sides)
+    past[0, :, 0::2] = short[-1, :, 0::2]  # value and slope along alpha are those of both sides
+    return short, past
+
+
+def _nodes(values: Floats) -> Floats:
+    """Return value, slope along g, slope along alpha and mixed slope of a spline, per cell."""
+
+    def slopes(of: Floats, axis: int) -> Floats:
+        return np.asarray(
+            CubicSpline(np.arange(of.shape[axis]), of, axis=axis)(np.arange(of.shape[axis]), 1)
+        )
+
+    along_g, along_alpha = slopes(values, 0), slopes(values, 1)
+    return np.stack([values, along_g, along_alpha, slopes(along_g, 1)], axis=-1)

@@ -1,0 +1,248 @@
+"""Piecewise bicubic functions of (ln g, ln alpha) that may bend where the tip touches the wire.
+
+The grid follows the touch: along g the cells are equal in ln g from the lowest g to g_touch(alpha),
+and equal in ln(g/g_touch) from there on; along alpha they are equal in ln alpha. In every cell a
+function is a polynomial of degree three in each direction. Values and slopes agree at the edges of
+cells, but the slopes across the touch need not.
+
+Floats, arrays with one alpha and arrays of both take ways of different speed through the same
+operations on the same numbers, so that they agree to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.touch import log_touch, log_touch_slope
+
+__all__ = ["CellTable", "Grid", "Place"]
+
+Array = NDArray[np.float64]
+
+_HERMITE = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Cells and how far points are in them, 0 to 1, along g and along alpha; x = ln(g/g_touch).
+
+    The cell along alpha and the place in it are floats where alpha is one number.
+    """
+
+    along_g: Any
+    in_g: Any
+    along_alpha: Any
+    in_alpha: Any
+    x: Any
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The cells.
+
+    Parameters
+    ----------
+    log_g : float
+        ln g at which the first cell begins.
+    beyond : float
+        ln(g/g_touch) at which the last cell ends.
+    log_alpha : tuple of float
+        The ends in ln alpha.
+    touch : tuple of float
+        Coefficients of ln g_touch in powers of ln alpha.
+    short, past, stiffening : int
+        Cells along g short of and past the touch, and along alpha.
+    """
+
+    log_g: float
+    beyond: float
+    log_alpha: tuple[float, float]
+    touch: tuple[float, ...]
+    short: int
+    past: int
+    stiffening: int
+
+    @property
+    def cells(self) -> int:
+        """Number of cells along g."""
+        return self.short + self.past
+
+    def place(self, log_g: Any, log_alpha: Any) -> Place:
+        """Return where points are, floats or arrays."""
+        touch = log_touch(self.touch, log_alpha)
+        x = log_g - touch
+        rate = self._rate(x, touch)
+        cell, within = _cell(x * rate + float(self.short), self.cells)
+        low, high = self.log_alpha
+        row, across = _cell((log_alpha - low) * (self.stiffening / (high - low)), self.stiffening)
+        return Place(cell, within, row, across, x)
+
+    def _rate(self, x: Any, touch: Any) -> Any:
+        """Return cells per unit of ln g."""
+        before, after = self.short / (touch - self.log_g), self.past / self.beyond
+        if type(x) is float:
+            return before if x < 0.0 else after
+        return np.where(x < 0.0, before, after)
+
+    def slopes(self, place: Place, log_alpha: Any) -> tuple[Any, Any, float]:
+        """Return d cells along g/d ln g and d ln alpha, and d cells along alpha/d ln alpha."""
+        touch, bend = log_touch(self.touch, log_alpha), log_touch_slope(self.touch, log_alpha)
+        rate = self._rate(place.x, touch)
+        # before the touch the cells widen with it: place = short (ln g - low)/(touch - low)
+        widening = place.x / (touch - self.log_g)
+        moved = -rate * bend * (1.0 + np.where(place.x < 0.0, widening, 0.0))
+        low, high = self.log_alpha
+        return rate, moved, self.stiffening / (high - low)
+
+    def nodes(self) -> tuple[Any, Any]:
+        """Return the nodes along g, counted from the touch, and ln alpha of those along alpha."""
+        return (
+            np.arange(self.cells + 1.0) - self.short,
+            np.linspace(*self.log_alpha, self.stiffening + 1),
+        )
+
+    def log_g_of(self, node: Any, log_alpha: Any) -> Any:
+        """Return ln g of a node along g."""
+        touch = log_touch(self.touch, log_alpha)
+        short = node * (touch - self.log_g) / self.short
+        return touch + np.where(node < 0.0, short, node * self.beyond / self.past)
+
+
+@dataclass(frozen=True, eq=False)
+class CellTable:
+    """Functions on one grid.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    nodes : mapping of str to tuple of ndarray, shape (nodes along g, nodes along alpha, 4)
+        For each function value, slope along g, slope along alpha and mixed slope at the nodes on
+        either side of the touch, per cell. The touch is the last node of the first array and the
+        first of the second.
+    """
+
+    grid: Grid
+    nodes: Mapping[str, tuple[Array, Array]]
+    _columns: dict[str, list[Array]] = field(default_factory=dict, repr=False)
+    _lists: dict[str, list[list[float]]] = field(default_factory=dict, repr=False)
+
+    def values(self, names: Sequence[str], place: Place) -> list[Any]:
+        """Return functions at a place."""
+        if type(place.in_g) is float:
+            return [self._at(name, place) for name in names]
+        if type(place.in_alpha) is float:
+            return [self._along(name, place) for name in names]
+        index = place.along_g * self.grid.stiffening + place.along_alpha
+        if "numba" in sys.modules:
+            from surrogate.compiled import bicubic
+
+            at = index, place.in_g, place.in_alpha
+            return [bicubic(self.cells[name], *at) for name in names]
+        return [self._scattered(name, index, place) for name in names]
+
+    def slopes(self, name: str, place: Place, log_alpha: Any) -> tuple[Any, Any]:
+        """Return the derivatives of a function by ln g and by ln alpha."""
+        index = place.along_g * self.grid.stiffening + place.along_alpha
+        rows = self.cells[name].reshape(-1, 4, 4)[index]
+        c = np.moveaxis(rows, (-2, -1), (0, 1))
+        t, s = place.in_g, place.in_alpha
+        power = [c[k][0] + s * (c[k][1] + s * (c[k][2] + s * c[k][3])) for k in range(4)]
+        across = [c[k][1] + s * (2.0 * c[k][2] + s * (3.0 * c[k][3])) for k in range(4)]
+        by_cell = power[1] + t * (2.0 * power[2] + t * (3.0 * power[3]))
+        by_row = across[0] + t * (across[1] + t * (across[2] + t * across[3]))
+        in_g, moved, in_alpha = self.grid.slopes(place, log_alpha)
+        return by_cell * in_g, by_row * in_alpha + by_cell * moved
+
+    @cached_property
+    def cells(self) -> dict[str, Array]:
+        """The sixteen coefficients of every cell, one row each, of every function."""
+        return {
+            name: np.ascontiguousarray(
+                np.concatenate([_coefficients(side) for side in sides]).reshape(-1, 16)
+            )
+            for name, sides in self.nodes.items()
+        }
+
+    def _at(self, name: str, place: Place) -> float:
+        if name not in self._lists:
+            self._lists[name] = self.cells[name].tolist()
+        t, s = place.in_g, place.in_alpha
+        c = self._lists[name][place.along_g * self.grid.stiffening + place.along_alpha]
+        c0 = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
+        c1 = c[4] + s * (c[5] + s * (c[6] + s * c[7]))
+        c2 = c[8] + s * (c[9] + s * (c[10] + s * c[11]))
+        c3 = c[12] + s * (c[13] + s * (c[14] + s * c[15]))
+        return c0 + t * (c1 + t * (c2 + t * c3))  # type: ignore[no-any-return]
+
+    def _scattered(self, name: str, index: NDArray[np.intp], place: Place) -> Array:
+        if name not in self._columns:
+            self._columns[name] = list(np.ascontiguousarray(self.cells[name].T))
+        columns, t, s = self._columns[name], place.in_g, place.in_alpha
+        power, taken = np.empty(t.shape), np.empty(t.shape)
+        result = np.empty(t.shape)
+        for k in (12, 8, 4, 0):
+            _horner(columns[k : k + 4], index, s, power, taken)
+            if k == 12:
+                result[...] = power
+            else:
+                result *= t
+                result += power
+        return result
+
+    def _along(self, name: str, place: Place) -> Array:
+        """Return the function along g at one alpha: the table collapses to four columns."""
+        j, s = place.along_alpha, place.in_alpha
+        c = self.cells[name].reshape(self.grid.cells, self.grid.stiffening, 4, 4)[:, j]
+        columns = [
+            np.ascontiguousarray(c[:, k, 0] + s * (c[:, k, 1] + s * (c[:, k, 2] + s * c[:, k, 3])))
+            for k in range(4)
+        ]
+        result, taken = np.empty(place.in_g.shape), np.empty(place.in_g.shape)
+        _horner(columns, place.along_g, place.in_g, result, taken)
+        return result
+
+
+def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: Array) -> None:
+    """Put the polynomials of cells into `result`, whose columns are their coefficients."""
+    columns[-1].take(index, out=result, mode="clip")  # clipping takes less time than checking
+    for column in columns[-2::-1]:
+        result *= x
+        result += column.take(index, out=taken, mode="clip")
+
+
+def _cell(place: Any, cells: int) -> tuple[Any, Any]:
+    """Return the cell of a place and how far it is in it, from 0 to 1."""
+    if type(place) is float:
+        number = min(max(math.floor(place), 0), cells - 1)
+        return number, place - number
+    cell = place.astype(np.intp)
+    np.minimum(np.maximum(cell, 0, out=cell), cells - 1, out=cell)
+    return cell, place - cell
+
+
+def _coefficients(nodes: Array) -> Array:
+    """Return the coefficients (cells, cells, 4, 4) of powers along g and along alpha."""
+    corners = nodes.reshape(*nodes.shape[:2], 2, 2)  # slope along alpha, then along g
+    ends = np.empty((nodes.shape[0] - 1, nodes.shape[1] - 1, 4, 4))
+    for slope_g in (0, 1):
+        for end_g in (0, 1):
+            for slope_alpha in (0, 1):
+                for end_alpha in (0, 1):
+                    ends[:, :, 2 * slope_g + end_g, 2 * slope_alpha + end_alpha] = corners[
+                        end_g : nodes.shape[0] - 1 + end_g,
+                        end_alpha : nodes.shape[1] - 1 + end_alpha,
+                        slope_alpha,
+                        slope_g,
+                    ]
+    return np.asarray(np.einsum("ai,xyij,bj->xyab", _HERMITE, ends, _HERMITE))

@@ -1,0 +1,183 @@
+"""Choosing the cheapest model that is exact enough, before any of them is evaluated.
+
+For each term t of the force, 2 R_w tau_w A and 2 R_w xi mu B, Eq. (13) gives an estimate m_t for
+nothing, and the measured bound e_t of |ln(m_t/truth)| tells between which numbers the truth is. So
+the force is at least L = Gamma_o + sum m_t exp(-e_t), and a term errs by m_t (exp(e_t) - 1) at
+most. A term that errs by less than a quarter of rtol L is left at its estimate; the rest is
+evaluated by the first model, in rising order of cost, whose own bounds keep the sum below rtol L.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.bounds import Bounds
+from surrogate.errors import AccuracyError
+from surrogate.fitted import Fitted, shipped
+from surrogate.force_models import FORCE_MODELS, ForceModel
+from surrogate.quantities import QUANTITIES
+from surrogate.validation import SMALLEST, Quantity, one_number
+
+__all__ = ["RTOL", "Chosen", "available", "bounded", "choose_contact", "choose_terms"]
+
+Array = NDArray[np.float64]
+
+RTOL = Quantity("rtol", "", "give the relative error that will do, such as 0.02", lower=SMALLEST)
+
+FREE = "eq13"
+NEGLIGIBLE = 0.25  # share of rtol up to which a term's own error is left alone
+OUTSIDE = "table"  # what continues beyond the domain, where no bound is known
+TERMS = ("arc", "normal_load")
+
+
+@dataclass(frozen=True, eq=False)
+class Chosen:
+    """What was chosen for a number of points.
+
+    Parameters
+    ----------
+    models : sequence of ForceModel
+        In rising order of cost.
+    code : ndarray of int
+        Which of them each point takes.
+    bound : ndarray
+        Bound of the relative error there [-]; nan outside the domain.
+    inside : ndarray of bool
+        Where g and alpha are in the domain.
+    needed : mapping of str to ndarray of bool
+        Where each function has to be evaluated.
+    """
+
+    models: Sequence[ForceModel]
+    code: NDArray[np.intp]
+    bound: Array
+    inside: NDArray[np.bool_]
+    needed: dict[str, NDArray[np.bool_]]
+
+    @property
+    def names(self) -> NDArray[np.str_]:
+        """Names of the models."""
+        return np.array([model.name for model in self.models])[self.code]
+
+
+def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
+    """Return the models with measured errors in rising order of cost, and the bounds.
+
+    Raises
+    ------
+    InputError
+        If no fitted models are shipped.
+    """
+    fitted = fitted or shipped()
+    return [FORCE_MODELS[FREE], *fitted.models.values()], fitted.bounds
+
+
+def choose_terms(g: Array, alpha: Array, parts: Sequence[Array], rtol: object) -> Chosen:
+    """Return models for the terms of forces.
+
+    Parameters
+    ----------
+    g, alpha : ndarray, shape (points,)
+        Where [-].
+    parts : sequence of ndarray
+        Gamma_o and the terms of wear and friction by Eq. (13) [N/m].
+    rtol : float
+        Relative error of their sum that will do [-].
+
+    Raises
+    ------
+    AccuracyError
+        If no model is as exact; the message names the best one.
+    """
+    tolerance = one_number(RTOL, rtol)
+    models, bounds = available()
+    cleavage, estimates = parts[0], dict(zip(TERMS, parts[1:], strict=True))
+    with np.errstate(all="ignore"):
+        free = {name: _bound(bounds, FREE, name, g, alpha, estimates[name]) for name in TERMS}
+        low = cleavage + sum(estimates[name] * np.exp(-free[name]) for name in TERMS)
+        worst = {name: _share(estimates[name] * np.expm1(free[name]), low) for name in TERMS}
+        together = worst[TERMS[0]] + worst[TERMS[1]]
+        needed = {
+            name: (together > tolerance) & (worst[name] > NEGLIGIBLE * tolerance) for name in TERMS
+        }
+        left = sum(np.where(needed[name], 0.0, worst[name]) for name in TERMS)
+        share = {n: _share(estimates[n] * np.exp(free[n]), low) for n in TERMS}
+        found = [together]
+        for model in models[1:]:
+            errors = [
+                np.where(needed[n], _bound(bounds, model.name, n, g, alpha, estimates[n]), 0.0)
+                for n in TERMS
+            ]
+            arc, load = (
+                np.minimum(share[n], 1.0) * np.expm1(error)
+                for n, error in zip(TERMS, errors, strict=True)
+            )
+            # a weighted mean of errors is not above the largest of them
+            found.append(np.minimum(arc + load, np.expm1(np.maximum(*errors))) + left)
+    return _chosen(models, np.array(found), needed, tolerance, g, alpha)
+
+
+def choose_contact(g: Array, alpha: Array, rtol: object) -> Chosen:
+    """Return models for A, B and delta at points, each of them within rtol."""
+    tolerance = one_number(RTOL, rtol)
+    models, bounds = available()
+    found = [
+        np.expm1(np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0))
+        for model in models
+    ]
+    everywhere = dict.fromkeys(QUANTITIES, np.ones(len(g), bool))
+    return _chosen(models, np.array(found), everywhere, tolerance, g, alpha)
+
+
+def bounded(model: ForceModel, g: Array, alpha: Array) -> Array:
+    """Return the bound of the relative errors of A, B and delta of one model at points."""
+    _, bounds = available()
+    largest = np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0)
+    return np.asarray(np.expm1(largest))
+
+
+def _bound(bounds: Bounds, model: str, name: str, g: Array, alpha: Array, term: Array) -> Array:
+    """Return the bound of a function, 0 where its term is."""
+    return np.asarray(np.where(term == 0.0, 0.0, bounds.at(model, name, g, alpha)))
+
+
+def _share(term: Array, total: Array) -> Array:
+    return np.asarray(np.where(term == 0.0, 0.0, term / total))
+
+
+def _chosen(
+    models: list[ForceModel],
+    found: Array,
+    needed: dict[str, NDArray[np.bool_]],
+    tolerance: float,
+    g: Array,
+    alpha: Array,
+) -> Chosen:
+    meets = found <= tolerance
+    code = np.argmax(meets, axis=0)
+    outside = ~np.any(np.isfinite(found), axis=0)
+    short = ~np.any(meets, axis=0) & ~outside
+    if np.any(short):
+        point = int(np.flatnonzero(short)[0])
+        best = int(np.argmin(found[:, point]))
+        error = found[best, point]
+        raise AccuracyError(
+            f"rtol must be met by a model, but rtol = {tolerance:g} is not at g = {g[point]:.4g}, "
+            f"alpha = {alpha[point]:.4g} ({np.count_nonzero(short)} of {short.size} points), where "
+            f"the best is {models[best].name!r} with an error of up to {error:.2g}; "
+            f"give rtol={_up(error)} or more."
+        )
+    names = [model.name for model in models]
+    code = np.where(outside, names.index(OUTSIDE), code)
+    bound = np.where(outside, np.nan, np.take_along_axis(found, code[np.newaxis], 0)[0])
+    return Chosen(models, code, bound, models[-1].holds(g, alpha), needed)
+
+
+def _up(error: float) -> str:
+    """Return a number in two digits that is not below the error."""
+    text = f"{error:.1e}"
+    return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"

@@ -1,0 +1,194 @@
+"""The fitted models of one file, and the shipped ones among them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from surrogate.blended import BlendModel
+from surrogate.bounds import Bounds
+from surrogate.cell_table import CellTable, Grid
+from surrogate.domain import Domain
+from surrogate.errors import InputError
+from surrogate.fitted_file import FILE, read_fitted
+from surrogate.fitted_models import FittedModel
+from surrogate.gaussian_process import GaussianProcess
+from surrogate.paths import models_folder
+from surrogate.process_model import ProcessModel
+from surrogate.quantities import QUANTITIES, coordinates
+from surrogate.table_model import TableModel
+
+__all__ = ["Fitted", "fitted_from", "read", "shipped", "to_file"]
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """Everything that was fitted to one data set.
+
+    Parameters
+    ----------
+    limits : Domain
+        The domain of all models.
+    processes : mapping of str to GaussianProcess
+        Of the quantities of `surrogate.quantities`.
+    table : CellTable
+        Of A, B and (delta/R_w - 1)/|x|^(7/4).
+    constants : mapping of str to tuple of float
+        Those of the formula of `BlendModel`.
+    about : mapping
+        Errors, power laws of single alphas, provenance: what is told, not computed with.
+    """
+
+    limits: Domain
+    processes: Mapping[str, GaussianProcess] = field(repr=False)
+    table: CellTable = field(repr=False)
+    constants: Mapping[str, tuple[float, ...]]
+    about: Mapping[str, Any] = field(repr=False)
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """The measured errors."""
+        return Bounds.from_dict(self.about["bounds"])
+
+    @cached_property
+    def models(self) -> dict[str, FittedModel]:
+        """The models by their names."""
+        models = (
+            BlendModel(self.limits, self.constants),
+            TableModel(self.limits, self.table),
+            ProcessModel(self.limits, self.processes),
+        )
+        return {model.name: model for model in models}
+
+
+def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what `fitted_from` makes the same models of: numbers with names, and arrays."""
+    limits, grid = fitted.limits, fitted.table.grid
+    about: dict[str, Any] = {
+        **fitted.about,
+        "units": "R_w = 1, mu = 1, forces and energies per unit thickness",
+        "domain": {"g": limits.g, "alpha": limits.alpha},
+        "touch": limits.touch,
+        "growth": limits.growth,
+        "constants": {name: list(values) for name, values in fitted.constants.items()},
+        "grid": {name: getattr(grid, name) for name in ("beyond", "short", "past", "stiffening")},
+        "prior": {
+            name: {
+                "mean": p.mean,
+                "variance": p.variance,
+                "lengths": p.lengths.tolist(),
+                "calibration": p.calibration,
+            }
+            for name, p in fitted.processes.items()
+        },
+    }
+    arrays: dict[str, Any] = {}
+    for name in QUANTITIES:
+        process = fitted.processes[name]
+        arrays[f"{name}.points"] = process.inputs[:, :2]
+        arrays[f"{name}.values"] = process.values
+        arrays[f"{name}.noise"] = process.noise.astype(np.float32)
+        arrays[f"{name}.active"] = process.active.astype(np.uint16)
+        for side, nodes in zip(("short", "past"), fitted.table.nodes[name], strict=True):
+            arrays[f"{name}.{side}"] = nodes.astype(np.float32)
+    return about, arrays
+
+
+def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
+    """Return the fitted models that `to_file` took apart.
+
+    Raises
+    ------
+    InputError
+        If something is missing or of the wrong shape.
+    """
+    try:
+        ends = about["domain"]
+        limits = Domain(
+            _pair(ends["g"]),
+            _pair(ends["alpha"]),
+            _floats(about["touch"]),
+            _floats(about["growth"]),
+        )
+        grid = Grid(
+            limits.log_g[0], log_alpha=limits.log_alpha, touch=limits.touch, **about["grid"]
+        )
+        return Fitted(
+            limits,
+            {name: _process(name, limits, about["prior"][name], arrays) for name in QUANTITIES},
+            CellTable(grid, {name: _nodes(name, grid, arrays) for name in QUANTITIES}),
+            {name: _floats(values) for name, values in about["constants"].items()},
+            about,
+        )
+    except (KeyError, ValueError, TypeError, IndexError) as error:
+        raise InputError(
+            f"the fitted models must be complete, but {error!r} was met; install wirecut again, "
+            "or make the file anew with regen-surrogate."
+        ) from None
+
+
+def _process(
+    name: str, limits: Domain, prior: Mapping[str, Any], arrays: Mapping[str, Any]
+) -> GaussianProcess:
+    points = arrays[f"{name}.points"]
+    return GaussianProcess(
+        inputs=coordinates(points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
+        values=arrays[f"{name}.values"],
+        noise=arrays[f"{name}.noise"].astype(float),
+        active=arrays[f"{name}.active"].astype(np.intp),
+        mean=float(prior["mean"]),
+        variance=float(prior["variance"]),
+        lengths=np.array(prior["lengths"], dtype=float),
+        calibration=float(prior["calibration"]),
+    )
+
+
+def _nodes(name: str, grid: Grid, arrays: Mapping[str, Any]) -> tuple[Any, Any]:
+    short, past = (arrays[f"{name}.{side}"].astype(float) for side in ("short", "past"))
+    for nodes, rows in ((short, grid.short + 1), (past, grid.past + 1)):
+        if nodes.shape != (rows, grid.stiffening + 1, 4):
+            raise ValueError(f"the table of {name} has the shape {nodes.shape}")
+    return short, past
+
+
+def _floats(values: Any) -> tuple[float, ...]:
+    return tuple(map(float, values))
+
+
+def _pair(values: Any) -> tuple[float, float]:
+    low, high = map(float, values)
+    return low, high
+
+
+@cache
+def read(path: str) -> Fitted:
+    """Return the fitted models of a file, read once.
+
+    Raises
+    ------
+    InputError
+        As `read_fitted` and `fitted_from`.
+    """
+    return fitted_from(*read_fitted(path))
+
+
+def shipped() -> Fitted:
+    """Return the fitted models that this installation ships.
+
+    Raises
+    ------
+    InputError
+        If it ships none, or their file is damaged.
+    """
+    file = models_folder() / FILE
+    if not file.is_file():
+        raise InputError(
+            f"a fitted model must have the file {FILE}, but the fitted models are not shipped with "
+            "this version; make the file with regen-surrogate, or choose a closed form such as "
+            "model='eq13'."
+        )
+    return read(str(file))

@@ -1,0 +1,221 @@
+"""What the fitted models have in common: the functions of g and alpha inside and outside.
+
+Inside the domain a model evaluates its own functions of ln g and ln alpha. Outside, they continue
+from the nearest point inside, without a step:
+
+- at lower g towards the far-field wedge: the logarithm of the ratio to it falls as p, which is
+  proportional to the square of the contact's width, the order of the first correction;
+- at higher g as A = constant and B ~ g^n(alpha), and delta follows its vertex to the touch;
+- at other alpha with the value at the nearest end.
+
+All methods work on validated floats as well as on float64 arrays, with one alpha or as many as g.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from surrogate.domain import Domain
+from surrogate.elementwise import exp, log, product, quotient, where
+from surrogate.equations import DIMENSIONLESS_TOUGHNESS
+from surrogate.force_models import ForceModel
+from surrogate.inverse import toughness_of
+from surrogate.quantities import QUANTITIES, vertex
+from surrogate.touch import log_touch, log_touch_slope
+from surrogate.validation import STIFFENING_EXPONENT, Quantity
+from surrogate.wedge import wedge_functions, wedge_load, wedge_slope, wedge_slopes
+
+__all__ = ["FittedModel", "in_blocks"]
+
+BLOCK = 2**13  # points at a time, whose temporaries stay in the cache
+_ARC, _LOAD, _DISTANCE = QUANTITIES
+
+
+class FittedModel(ForceModel):
+    """A model of A, B and delta that was fitted to finite-element solutions.
+
+    `limits` is its domain; `inside` and `inside_slopes` are what the kinds of models differ in.
+    """
+
+    limits: Domain
+
+    @abstractmethod
+    def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
+        """Return A, B or delta, as named, at points inside the domain."""
+
+    @abstractmethod
+    def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
+        """Return a function and its derivatives by ln g and ln alpha, from above at the touch."""
+
+    @property
+    def domain(self) -> str:  # type: ignore[override]
+        """The domain in words."""
+        return str(self.limits)
+
+    @property
+    def g(self) -> Quantity:  # type: ignore[override]
+        """The g that the model accepts."""
+        return self.limits.g_quantity
+
+    @property
+    def stiffening(self) -> Quantity:  # type: ignore[override]
+        """The alpha that the model accepts."""
+        return self.limits.alpha_quantity
+
+    def arc(self, g: Any, alpha: Any) -> Any:
+        return self.contact((_ARC,), g, alpha)[0]
+
+    def normal_load(self, g: Any, alpha: Any) -> Any:
+        return self.contact((_LOAD,), g, alpha)[0]
+
+    def distance(self, g: Any, alpha: Any) -> Any:
+        return self.contact((_DISTANCE,), g, alpha)[0]
+
+    def touch(self, alpha: Any) -> Any:
+        return exp(self.limits.log_touch(self.limits.clamped(0.0, log(alpha))[1]))
+
+    touching_toughness = touch
+
+    def holds(self, g: Any, alpha: Any) -> Any:
+        return self.limits.holds(g, alpha)
+
+    def accepted(self, extrapolate: bool) -> tuple[Quantity, Quantity]:
+        return (
+            (DIMENSIONLESS_TOUGHNESS, STIFFENING_EXPONENT)
+            if extrapolate
+            else super().accepted(False)
+        )
+
+    def energy_release_rate(self, distance: Any, alpha: Any) -> Any:
+        log_alpha = self.limits.clamped(0.0, log(alpha))[1]
+        touch = self.limits.log_touch(log_alpha)
+        return toughness_of(lambda g: self.distance(g, alpha), distance, touch)
+
+    def contact(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
+        """Return A, B or delta, as named."""
+        if type(g) is float and type(alpha) is float:
+            return self._contact(names, g, alpha)
+        return in_blocks(lambda *at: self._contact(names, *at), len(names), g, alpha)
+
+    def _contact(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
+        log_g, log_alpha = log(g), log(alpha)
+        at, row = self.limits.clamped(log_g, log_alpha)
+        values = self.inside(names, at, row, g)
+        low, high = self.limits.log_g
+        if _all(log_g >= low) and _all(log_g <= high):
+            return values
+        continued = [self._continued(*each, at, row, log_g) for each in zip(names, values)]  # noqa: B905
+        outside = (log_g < low) | (log_g > high)
+        return [where(outside, far, near) for far, near in zip(continued, values)]  # noqa: B905
+
+    def _continued(self, name: str, value: Any, at: Any, row: Any, log_g: Any) -> Any:
+        """Return what a function becomes away from its nearest value inside, at ln g = `at`."""
+        low, high = self.limits.log_g
+        far = where(log_g < low, log_g, low)
+        p, seam = wedge_load(far), wedge_load(low)
+        ratio = log(value) - log(wedge_functions(low, seam)[name])
+        with np.errstate(all="ignore"):
+            below = wedge_functions(far, p)[name] * exp(ratio * (p / seam))
+            over = where(log_g > high, log_g - high, 0.0)
+            if name == _ARC:
+                above = value
+            elif name == _LOAD:
+                above = value * exp(log_touch(self.limits.growth, row) * over)
+            else:
+                x = self.limits.log_touch(row) - at
+                left = where(x > over, 1.0 - over / where(x > 0.0, x, 1.0), 0.0)
+                above = 1.0 + (value - 1.0) * vertex(-left)
+        return where(log_g < low, below, above)
+
+    def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        return self.slopes(_ARC, g, alpha)
+
+    def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        return self.slopes(_LOAD, g, alpha)
+
+    def slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return the derivatives of A or B by g and alpha; infinite in g where g is 0."""
+        log_g, log_alpha = log(g), log(alpha)
+        at, row = self.limits.clamped(log_g, log_alpha)
+        value, in_g, in_alpha = self.inside_slopes(name, at, row)
+        low, high = self.limits.log_g
+        with np.errstate(all="ignore"):
+            in_g, in_alpha = in_g / value, in_alpha / value  # of the logarithm from here on
+            far = where(log_g < low, log_g, low)
+            p, seam = wedge_load(far), wedge_load(low)
+            ratio = log(value) - log(wedge_functions(low, seam)[name])
+            below = wedge_slopes(far)[name] + ratio * (p / seam) * wedge_slope(far)
+            over = where(log_g > high, log_g - high, 0.0)
+            growth = log_touch(self.limits.growth, row) if name == _LOAD else 0.0
+            bend = log_touch_slope(self.limits.growth, row) if name == _LOAD else 0.0
+            in_g = where(log_g < low, below, where(log_g > high, growth, in_g))
+            in_alpha = where(
+                log_g < low,
+                in_alpha * (p / seam),
+                where(log_g > high, in_alpha + bend * over, in_alpha),
+            )
+            there = self.contact((name,), g, alpha)[0]
+            first, last = self.limits.log_alpha
+            in_alpha = where((log_alpha >= first) & (log_alpha <= last), in_alpha, 0.0)
+            by_g = where(g == 0.0, np.inf, there * in_g / where(g == 0.0, 1.0, g))
+            return by_g, there * in_alpha / alpha
+
+    def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        g = quotient(gamma, mu, radius)
+        friction = worn = 0.0
+        if np.any(wear):
+            arc = where(wear == 0.0, 0.0, self.arc(g, alpha))
+            worn = 2.0 * product(wear, radius, arc)
+        if np.any(xi):
+            friction = where(xi == 0.0, 0.0, self._friction(g, mu, gamma, radius, xi, alpha))
+        return friction, worn
+
+    def _friction(self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> Any:
+        """Return 2 R_w xi mu B, which where g is high is 2 xi Gamma_o B/g."""
+        high = self.limits.g[1]
+        beyond = g > high
+        load = self.normal_load(where(beyond, high, g), alpha)
+        friction = 2.0 * product(radius, xi, mu) * load
+        if not _any(beyond):
+            return friction
+        log_alpha = self.limits.clamped(0.0, log(alpha))[1]
+        excess = log_touch(self.limits.growth, log_alpha) - 1.0
+        log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
+        with np.errstate(all="ignore"):
+            power = exp(excess * (log_g - self.limits.log_g[1]))
+            return where(beyond, 2.0 * product(xi, gamma, power * (load / high)), friction)
+
+    def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        return self.limits.holds(quotient(gamma, mu, radius), alpha)
+
+
+def _all(condition: Any) -> bool:
+    return condition if type(condition) is bool else bool(np.all(condition))
+
+
+def _any(condition: Any) -> bool:
+    return condition if type(condition) is bool else bool(np.any(condition))
+
+
+def in_blocks(function: Callable[..., list[Any]], number: int, g: Any, alpha: Any) -> list[Any]:
+    """Return a number of functions at points, so many at a time that they stay in the cache."""
+    shape = np.broadcast_shapes(np.shape(g), np.shape(alpha))
+    one_alpha = type(alpha) is float or np.ndim(alpha) == 0
+    flat = _flat(g, shape)
+    row: Any = float(alpha) if one_alpha else _flat(alpha, shape)
+    results = [np.empty(flat.size) for _ in range(number)]
+    with np.errstate(all="ignore"):
+        for start in range(0, flat.size, BLOCK):
+            some = slice(start, start + BLOCK)
+            values = function(flat[some], row if one_alpha else row[some])
+            for result, value in zip(results, values, strict=True):
+                result[some] = value
+    return [result.reshape(shape) for result in results]
+
+
+def _flat(values: Any, shape: tuple[int, ...]) -> Any:
+    return np.ascontiguousarray(np.broadcast_to(values, shape)).ravel()

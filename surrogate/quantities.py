@@ -1,0 +1,51 @@
+"""The transformed quantities in which A, B and delta are smooth enough to be fitted.
+
+Coordinates are ln g, ln alpha and the toughness beyond the touch of the tip, max(0, x) with
+x = ln(g/g_touch): functions of the three may bend at the touch. The quantities are
+
+    ln(A/A_wedge),   ln(B/B_wedge),   ln[(delta/R_w - 1)/(|x|^(7/4) delta_wedge/R_w)],
+
+the last one short of the touch only. It is finite there, because delta reaches R_w with a vertex of
+about that power; beyond, delta is R_w.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["POWER", "QUANTITIES", "coordinates", "vertex"]
+
+QUANTITIES = ("arc", "normal_load", "distance")
+POWER = 1.75
+
+
+def coordinates(log_g: Any, log_alpha: Any, touch: Any) -> NDArray[np.float64]:
+    """Return the coordinates of points as one array of shape (points, 3).
+
+    Examples
+    --------
+    >>> coordinates(2.0, 1.0, 1.5)
+    array([[2. , 1. , 0.5]])
+    """
+    beyond = np.maximum(np.subtract(log_g, touch), 0.0)
+    return np.stack(np.broadcast_arrays(*np.atleast_1d(log_g, log_alpha, beyond)), axis=-1)
+
+
+def vertex(x: Any) -> Any:
+    """Return |x|^(7/4) where x is negative, else 0.
+
+    Examples
+    --------
+    >>> print(f"{vertex(-0.5):.6f} {vertex(0.5):.6f}")
+    0.297302 0.000000
+    """
+    if type(x) is float:
+        short = max(-x, 0.0)
+        half = float(np.sqrt(short))
+        return short * half * float(np.sqrt(half))
+    short = np.maximum(-x, 0.0)
+    half = np.sqrt(short)
+    return short * half * np.sqrt(half)

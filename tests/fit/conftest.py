@@ -1,0 +1,27 @@
+"""Models fitted once to a made-up contact, and installed in the place of the shipped ones."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import surrogate.fitted
+from fe_training.fit import fit, write_fitted
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))  # for `made_up`
+
+
+@pytest.fixture(scope="session")
+def fitted_file(tmp_path_factory):
+    """The file of models fitted to the made-up points."""
+    from made_up import points
+
+    return write_fitted(tmp_path_factory.mktemp("models"), fit(points(), {"origin": "made up"}))
+
+
+@pytest.fixture
+def installed(fitted_file, monkeypatch):
+    """The fitted models as this installation's own."""
+    monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: fitted_file.parent)
+    return surrogate.fitted.shipped()

@@ -1,0 +1,229 @@
+"""The wedge, the cells, the processes: each by itself, against what it must agree with."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+from made_up import points
+
+from fe_training.fit_gp import leave_out_errors
+from surrogate.blended import BlendModel
+from surrogate.cell_table import CellTable, Grid
+from surrogate.domain import Domain
+from surrogate.gaussian_process import GaussianProcess
+from surrogate.inverse import toughness_of
+from surrogate.quantities import vertex
+from surrogate.touch import log_touch, log_touch_slope
+from surrogate.wedge import wedge_functions, wedge_load, wedge_slope, wedge_slopes
+
+LOG_G = np.array([-740.0, -40.0, -6.0, -1.0, 0.0, 2.0, 5.0, 9.0])
+
+
+def test_the_wedge_solves_its_equation():
+    p = wedge_load(LOG_G)
+    log_k = (2.0 / 3.0) * (math.log(32.0) + 0.5 * (1.0 - math.log(math.pi)) - LOG_G)
+    # p ln(k p) = pi/3; near its root the left side changes by p (1 + ln(k p)) a unit of ln p
+    assert p * (log_k + np.log(p)) == pytest.approx(math.pi / 3, rel=1e-13)
+
+
+def test_the_wedge_at_the_ends_of_the_numbers():
+    assert wedge_load(-math.inf) == 0.0
+    at_zero = wedge_functions(-math.inf, 0.0)
+    assert list(at_zero.values()) == [0.0, 0.0, math.inf]
+    for log_g in LOG_G:
+        alone = wedge_functions(float(log_g), wedge_load(float(log_g)))
+        together = wedge_functions(LOG_G, wedge_load(LOG_G))
+        for name, value in alone.items():
+            assert type(value) is float
+            assert value == together[name][list(LOG_G).index(log_g)]
+
+
+def test_slopes_of_the_wedge():
+    h = 1e-6
+    low, high = (wedge_functions(x, wedge_load(x)) for x in (LOG_G[1:] - h, LOG_G[1:] + h))
+    for name, slope in wedge_slopes(LOG_G[1:]).items():
+        difference = (np.log(high[name]) - np.log(low[name])) / (2.0 * h)
+        assert slope == pytest.approx(difference, abs=1e-9)
+    assert wedge_slope(-40.0) > 0.0
+
+
+def test_slope_of_the_touch():
+    coefficients, h = (0.3, -1.0, 2.0, 0.5), 1e-6
+    difference = (log_touch(coefficients, 1.2 + h) - log_touch(coefficients, 1.2 - h)) / (2.0 * h)
+    assert log_touch_slope(coefficients, 1.2) == pytest.approx(difference, rel=1e-9)
+    assert log_touch_slope((0.3,), 1.2) == 0.0
+
+
+@pytest.mark.parametrize("g", [1e-300, 1e-9, 0.3, 0.999999])
+def test_the_inverse_of_the_distance(g):
+    def distance(at):
+        return 1.0 + vertex(float(np.log(at))) / at if at else math.inf
+
+    assert toughness_of(distance, float(distance(g)), 0.0) == pytest.approx(g, rel=1e-9)
+
+
+GRID = Grid(-3.0, 4.0, (0.7, 2.2), (0.2, 1.1, 0.3), 5, 4, 3)
+
+
+def cubic(u, v):
+    return 1.0 + u * (0.5 + v) + u**3 * (0.2 - 0.1 * v**2) - v**3
+
+
+@pytest.fixture(scope="module")
+def table():
+    """A table of a cubic polynomial in cells along g and in ln alpha, with a bend at the touch."""
+    node, rows = GRID.nodes()
+    u, v = np.meshgrid(node, rows, indexing="ij")
+    step = rows[1] - rows[0]
+    of = cubic(u, v), 0.5 + v + 3 * u**2 * (0.2 - 0.1 * v**2)
+    across = u - 0.2 * u**3 * v - 3 * v**2, 1.0 - 0.6 * u**2 * v
+    nodes = np.stack([*of, step * across[0], step * across[1]], axis=-1)
+    bent = nodes.copy()
+    bent[..., 0] += 2.0 * u  # beyond the touch, steeper
+    bent[..., 1] += 2.0
+    return CellTable(GRID, {"f": (nodes[:6], bent[5:])})
+
+
+def anywhere(size=400):
+    random = np.random.default_rng(5)
+    log_alpha = random.uniform(0.7, 2.2, size)
+    return random.uniform(-3.0, log_touch(GRID.touch, log_alpha) + 4.0), log_alpha
+
+
+def test_a_table_of_a_cubic_polynomial_is_that_polynomial(table):
+    log_g, log_alpha = anywhere()
+    place = GRID.place(log_g, log_alpha)
+    u = place.along_g + place.in_g - GRID.short
+    expected = cubic(u, log_alpha) + 2.0 * np.maximum(u, 0.0)
+    assert table.values(("f",), place)[0] == pytest.approx(expected, rel=1e-12, abs=1e-11)
+
+
+def test_nodes_are_where_the_grid_says():
+    node, rows = GRID.nodes()
+    for row in rows:
+        place = GRID.place(GRID.log_g_of(node, row), np.full(len(node), row))
+        assert place.along_g + place.in_g - GRID.short == pytest.approx(node, abs=1e-12)
+
+
+def test_ways_of_evaluation_agree_to_the_last_bit(table, monkeypatch):
+    monkeypatch.delitem(sys.modules, "numba", raising=False)
+    log_g, log_alpha = anywhere()
+    scattered = table.values(("f",), GRID.place(log_g, log_alpha))[0]
+    for i in range(len(log_g)):
+        assert (
+            table.values(("f",), GRID.place(float(log_g[i]), float(log_alpha[i])))[0]
+            == (scattered[i])
+        )
+    along = table.values(("f",), GRID.place(log_g, 1.3))[0]
+    both = table.values(("f",), GRID.place(log_g, np.full(len(log_g), 1.3)))[0]
+    np.testing.assert_array_equal(along, both)
+
+
+def test_compiled_cells_agree_to_the_last_bit(table):
+    pytest.importorskip("numba")
+    log_g, log_alpha = anywhere()
+    compiled = table.values(("f",), GRID.place(log_g, log_alpha))[0]
+    alone = [
+        table.values(("f",), GRID.place(float(x), float(y)))[0]
+        for x, y in zip(log_g, log_alpha, strict=True)
+    ]
+    np.testing.assert_array_equal(compiled, alone)
+
+
+def test_slopes_of_a_table(table):
+    log_g, log_alpha = anywhere()
+    h = 1e-6
+
+    def at(x, y):
+        return table.values(("f",), GRID.place(x, y))[0]
+
+    by_g, by_alpha = table.slopes("f", GRID.place(log_g, log_alpha), log_alpha)
+    far = np.abs(log_g - log_touch(GRID.touch, log_alpha)) > 1e-4  # differences across the bend
+    difference = (at(log_g + h, log_alpha) - at(log_g - h, log_alpha)) / (2.0 * h)
+    assert by_g[far] == pytest.approx(difference[far], rel=1e-6, abs=1e-6)
+    difference = (at(log_g, log_alpha + h) - at(log_g, log_alpha - h)) / (2.0 * h)
+    assert by_alpha[far] == pytest.approx(difference[far], rel=1e-6, abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def process():
+    random = np.random.default_rng(2)
+    at = random.uniform(0.0, 3.0, (60, 3))
+    values = np.sin(at[:, 0]) + 0.3 * at[:, 1] ** 2 - 0.1 * at[:, 2]
+    noise = random.uniform(1e-6, 1e-4, 60)
+    return GaussianProcess(at, values, noise, np.arange(60), 0.4, 2.0, np.array([1.1, 1.6, 3.0]))
+
+
+def test_a_process_with_all_points_is_that_of_scikit_learn(process):
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel
+
+    kernel = ConstantKernel(2.0) * RBF(process.lengths)
+    other = GaussianProcessRegressor(kernel, alpha=process.noise, optimizer=None)
+    other.fit(process.inputs, process.values - 0.4)
+    at = np.random.default_rng(3).uniform(0.0, 3.0, (130, 3))
+    mean, std = process.predict(at)
+    expected, expected_std = other.predict(at, return_std=True)
+    # both invert matrices whose condition number is about 60 * 2/1e-6 = 1e8
+    assert mean == pytest.approx(expected + 0.4, abs=1e-6)
+    assert std == pytest.approx(expected_std, abs=2e-5)
+    np.testing.assert_array_equal(process.predict_mean(at), mean)
+
+
+def test_predictions_do_not_depend_on_how_many_are_asked_for(process):
+    at = np.random.default_rng(4).uniform(0.0, 3.0, (70, 3))
+    mean, std = process.predict(at)
+    for some in (slice(0, 1), slice(5, 69), slice(64, 70)):
+        alone = process.predict(at[some])
+        np.testing.assert_array_equal(alone, (mean[some], std[some]))
+
+
+def test_gradient_of_a_process(process):
+    at, h = np.random.default_rng(6).uniform(0.5, 2.5, (20, 3)), 1e-5
+    slopes = process.gradient(at)
+    for i in range(3):
+        step = h * np.eye(3)[i]
+        difference = (process.predict_mean(at + step) - process.predict_mean(at - step)) / (2 * h)
+        assert slopes[:, i] == pytest.approx(difference, abs=1e-5)
+
+
+def test_leaving_out_is_what_fitting_without_gives(process):
+    groups = np.arange(60) // 4
+    error, std = leave_out_errors(process, groups)
+    for group in (0, 7, 14):
+        rest = groups != group
+        without = GaussianProcess(
+            process.inputs[rest],
+            process.values[rest],
+            process.noise[rest],
+            np.arange(rest.sum()),
+            process.mean,
+            process.variance,
+            process.lengths,
+        )
+        mean, spread = without.predict(process.inputs[~rest])
+        assert error[~rest] == pytest.approx(mean - process.values[~rest], abs=1e-6)
+        expected = np.sqrt(spread**2 + process.noise[~rest])
+        assert std[~rest] == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_formula_has_twelve_constants_and_the_limits_it_claims(installed):
+    model = installed.models["power-law"]
+    assert sum(len(model.constants[name]) for name in ("arc", "normal_load")) == 12
+    wide = BlendModel(
+        Domain((1e-12, 1e9), (2.0, 9.0), installed.limits.touch, (1.0,)), model.constants
+    )
+    wedge = wedge_functions(np.log(1e-12), wedge_load(np.log(1e-12)))
+    assert wide.normal_load(1e-12, 3.0) == pytest.approx(wedge["normal_load"], rel=1e-3)
+    assert wide.arc(1e-12, 3.0) == pytest.approx(2.0 * np.sin(wedge["arc"] / 2.0), rel=1e-3)
+    n = model.constants["normal_load"][4] + model.constants["normal_load"][5] / 3.0  # alpha = 3
+    steep = np.log(wide.normal_load(1e9, 3.0) / wide.normal_load(1e8, 3.0)) / np.log(10.0)
+    assert steep == pytest.approx(n, abs=1e-2)
+    assert wide.arc(1e9, 3.0) == pytest.approx(wide.arc(1e8, 3.0), rel=1e-2)
+
+
+def test_points_can_be_taken():
+    some = points().taken(slice(3, 7))
+    assert len(some) == 4
+    assert some.g[0] == points().g[3]
