@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate import cli_map, report
+from surrogate import cli_identify, cli_map, report
 from surrogate.command import OneLineParser, complete, run_command
 from surrogate.data import Material, read_material, read_measurements
 from surrogate.errors import InputError
@@ -281,6 +281,7 @@ def _add_identify_options(command: argparse.ArgumentParser) -> None:
         metavar="P",
         help="probability of the intervals (default 0.95)",
     )
+    cli_identify.add_fact_options(command, _quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
 
 
@@ -340,6 +341,7 @@ def _identify(options: argparse.Namespace) -> None:
         force_std=measurements.force_std,
         model=options.model,
         confidence=options.confidence,
+        **cli_identify.facts(options),
     )
     origin = "read from the published line" if options.example else "measured"
     if options.plot:

@@ -24,7 +24,10 @@ from surrogate.figures import (
     picture_file,
     save_figure,
 )
+from surrogate.force_models import force_model
 from surrogate.identification import Identification
+from surrogate.linear_fit import is_linear
+from surrogate.profile_plot import plot_profile
 from surrogate.validation import TOUGHNESS, one_number, shown
 
 if TYPE_CHECKING:
@@ -96,13 +99,13 @@ def plot_identification(
         pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
     if ax is None:
         ax = new_axes(SINGLE_COLUMN)
-    radius = np.linspace(0.0, 1.08, 201) * identification.wire_radius.max()
+    radius = _drawn_radii(identification)
     handles = [
         _draw_measurements(ax, identification, force_label),
         *_draw_fit(ax, identification, radius),
         *_draw_references(ax, identification, pure_shear_toughness),
     ]
-    _label(ax, radius[-1], handles)
+    _label(ax, 1.08 * identification.wire_radius.max(), handles)
     return ax
 
 
@@ -114,6 +117,8 @@ def save_identification(
     force_label: str = "measured",
 ) -> None:
     """Write the picture of `plot_identification` to a file, one journal column wide.
+
+    Below it, that of `plot_profile` where the misfit was followed along the toughness.
 
     Parameters
     ----------
@@ -143,14 +148,30 @@ def save_identification(
     surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
     """
     file = picture_file(file)
-    figure = new_figure(SINGLE_COLUMN)
+    panels = 1 if identification.profile is None else 2
+    figure = new_figure((SINGLE_COLUMN[0], panels * SINGLE_COLUMN[1]))
+    if panels == 2:
+        plot_profile(identification, figure.add_subplot(panels, 1, panels))
     plot_identification(
         identification,
-        figure.add_subplot(),
+        figure.add_subplot(panels, 1, 1),
         pure_shear_toughness=pure_shear_toughness,
         force_label=force_label,
     )
     save_figure(figure, file)
+
+
+def _drawn_radii(fit: Identification) -> NDArray[np.float64]:
+    """Return the radii of the curve [m]: from the axis on, or as far as the model reaches."""
+    largest = 1.08 * fit.wire_radius.max()
+    if fit.profile is None or is_linear(fit.model):
+        return np.linspace(0.0, largest, 201)
+    toughness = np.append(fit.profile.admitted[0], fit.toughness)
+    g = force_model(fit.model).g
+    first = max(largest / 200.0, toughness.max() / (fit.shear_modulus * g.upper))
+    if g.lower > 0.0:
+        largest = min(largest, toughness.min() / (fit.shear_modulus * g.lower))
+    return np.linspace(first * (1.0 + 1e-12), largest * (1.0 - 1e-12), 201)
 
 
 def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from textwrap import fill
 from typing import Any, TypeAlias
 
@@ -14,7 +15,9 @@ from surrogate.errors import DomainError
 from surrogate.force import CuttingForce
 from surrogate.force_models import FORCE_MODELS
 from surrogate.identification import Identification
-from surrogate.radii import fracto_cohesive_transition_radius
+from surrogate.linear_fit import is_linear
+from surrogate.profile_report import profile_record, profile_text
+from surrogate.radii import fracto_cohesive_transition_radius, transition_radius
 from surrogate.regimes import Regime, classify
 from surrogate.scene import Scene
 from surrogate.tables import UNKNOWN
@@ -141,6 +144,7 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "transition_radii": _transition_radii(fit, material, lengths),
         "wires": _identified_wires(fit),
         "warnings": list(fit.warnings),
+        **profile_record(fit),
     }
 
 
@@ -173,6 +177,10 @@ def _transition_radii(fit: Identification, material: Material, lengths: Record) 
         ),
         "wear": _length("l_w/4", fit.wear_transition_radius, fit.wear_transition_radius_std),
     }
+    if not is_linear(fit.model):
+        with suppress(DomainError):  # beyond the model
+            radius = transition_radius(fit.scene(1.0), fit.model)
+            radii["model"] = _length(f"model '{fit.model}'", float(radius), None)
     if l_f := lengths.get("fracto_cohesive_pure_shear"):
         radius = fracto_cohesive_transition_radius(
             material.pure_shear_toughness,  # type: ignore[arg-type]
@@ -222,6 +230,7 @@ def identification_text(record: Record) -> str:
             f"{len(record['wires'])} forces, {record['forces']}, from {record['file']}",
             _properties_text(record),
             _estimates_text(record),
+            profile_text(record),
             _lengths_text("Length", record["lengths"]),
             _lengths_text("Transition radius R_w*", record["transition_radii"]),
             _wires_text(record["wires"]),

@@ -36,7 +36,7 @@ def undecided(fit: Identification) -> Iterator[str]:
     sentences = [
         *_several(fit, fit.profile),
         *_toughness_ends(fit, fit.profile),
-        *_wear_ends(fit),
+        *_wear_ends(fit, fit.profile),
         *_wide(fit),
     ]
     yield from sentences
@@ -87,7 +87,10 @@ def _toughness_ends(fit: Identification, profile: Profile) -> Iterator[str]:
     low, high = fit.toughness_interval
     (first, last), (below, above) = profile.searched, profile.ends
     if low == 0.0:
-        yield f"the forces set no lower limit to the toughness: anything up to {high:.3g} J/m2 fits"
+        up_to = profile.toughness_intervals[0][1]
+        yield (
+            f"the forces set no lower limit to the toughness: anything up to {up_to:.3g} J/m2 fits"
+        )
     elif below == "model" and low <= first:
         yield (
             f"the toughness may be smaller than {low:.3g} J/m2, where model '{fit.model}' ends for "
@@ -102,12 +105,13 @@ def _toughness_ends(fit: Identification, profile: Profile) -> Iterator[str]:
         yield f"it is the bound of {high:.4g} J/m2, not the forces, that limits the toughness above"
 
 
-def _wear_ends(fit: Identification) -> Iterator[str]:
+def _wear_ends(fit: Identification, profile: Profile) -> Iterator[str]:
     low, high = fit.wear_strength_interval
     if fit.known.wear_strength is not None:
         return
     if low == 0.0:
-        yield f"whether the solid wears at all: any tau_w up to {1e-3 * high:.3g} kPa fits"
+        up_to = 1e-3 * profile.wear_strength_intervals[0][1]
+        yield f"whether the solid wears at all: any tau_w up to {up_to:.3g} kPa fits"
     if np.isinf(high):
         yield "the forces set no upper limit to the wear strength"
 

@@ -1,0 +1,137 @@
+"""What a nonlinear identification prints and draws."""
+
+import json
+import re
+import shlex
+
+import numpy as np
+import pytest
+
+from surrogate import identify
+from surrogate.cli import main
+from surrogate.errors import InputError
+from surrogate.profile_plot import plot_profile
+
+RADII = np.array([0.125e-3, 0.275e-3, 0.470e-3])
+FORCES = [1.85, 4.29, 5.67]  # with the bump's two minima
+MODULUS = 685.0
+
+
+@pytest.fixture
+def cuts(tmp_path):
+    file = tmp_path / "cuts.csv"
+    rows = [f"{1e3 * r:.3f},{f},0.6\n" for r, f in zip(RADII, FORCES, strict=True)]
+    header = "wire_radius_mm,force_per_thickness_N_per_m,force_std_N_per_m\n"
+    file.write_text(header + "".join(rows))
+    return file
+
+
+def run(cuts, options, capsys):
+    assert main(shlex.split(f"identify {cuts} --shear-modulus 685Pa {options}")) == 0
+    return capsys.readouterr().out
+
+
+def test_minima_intervals_and_the_further_wire_are_printed(cuts, capsys, bump):
+    printed = run(cuts, "--model bump", capsys)
+    fit = identify(RADII, FORCES, MODULUS, force_std=0.6, model="bump")
+    first, second = fit.profile.modes[:2]
+    assert re.search(rf"\n1 +{first.toughness:.4g} .* the estimate\n", printed)
+    assert re.search(rf"\n2 +{second.toughness:.4g} .* possible\n", printed)
+    assert "Gamma_o is in one of 2 intervals: 0 to" in printed
+    assert "Undecided: 2 materials fit the forces" in printed
+    text = " ".join(printed.split())
+    assert f"To decide: a wire of radius {1e3 * fit.further_wire.wire_radius:.3g} mm" in text
+    assert "model 'bump'" in printed
+    assert printed.isascii()
+
+
+def test_the_same_for_machines(cuts, capsys, bump):
+    record = json.loads(run(cuts, "--model bump --json", capsys), parse_constant=pytest.fail)
+    fit = identify(RADII, FORCES, MODULUS, force_std=0.6, model="bump")
+    assert [mode["toughness"] for mode in record["modes"]] == [
+        mode.toughness for mode in fit.profile.modes
+    ]
+    assert record["toughness_intervals"] == [list(i) for i in fit.profile.toughness_intervals]
+    assert record["further_wire"]["wire_radius"] == fit.further_wire.wire_radius
+    assert record["misfit"] == "chi^2"
+    assert "model" in record["transition_radii"]
+
+
+def test_facts_reach_the_fit(cuts, capsys, elements):
+    options = "--model elements --toughness-max 0.5J/m2 --further-radii 0.2mm 0.3mm --json"
+    record = json.loads(run(cuts, options, capsys))
+    assert record["toughness"] <= 0.5
+    assert record["known"]["toughness_max"] == 0.5
+    assert record["further_wire"]["searched"] == [2e-4, 3e-4]
+    record = json.loads(run(cuts, "--wear-strength 2kPa --json", capsys))
+    assert record["wear_strength"] == 2000.0
+    options = "--toughness-prior 1J/m2 0.1J/m2 --wear-strength-prior 2kPa 1kPa --json"
+    record = json.loads(run(cuts, options, capsys))
+    assert record["known"]["toughness_prior"] == [1.0, 0.1]
+    assert record["known"]["wear_strength_prior"] == [2000.0, 1000.0]
+
+
+def test_a_linear_fit_prints_nothing_of_it(cuts, capsys):
+    printed = run(cuts, "", capsys)
+    for word in ("Minimum", "Undecided", "To know more", "\nmodel"):
+        assert word not in printed
+    assert "modes" not in json.loads(run(cuts, "--json", capsys))
+
+
+def test_two_panels_without_overlaps(cuts, capsys, bump, tmp_path):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "fit.png"
+    run(cuts, f"--model bump --plot {picture}", capsys)
+    assert picture.stat().st_size > 5000
+
+
+@pytest.mark.parametrize("std", [0.6, None])
+def test_the_profiles_figure(bump, std):
+    figure = pytest.importorskip("matplotlib.figure").Figure(
+        figsize=(3.4, 2.9), layout="constrained"
+    )
+    fit = identify(RADII, FORCES, MODULUS, force_std=std, model="bump")
+    ax = plot_profile(fit, figure.add_subplot())
+    curve = ax.get_lines()[0]
+    np.testing.assert_array_equal(curve.get_xdata(), fit.profile.toughness)
+    np.testing.assert_array_equal(curve.get_ydata(), fit.profile.misfit)
+    low, high = ax.get_ylim()
+    assert low < 0.0 < fit.profile.threshold < high
+    figure.draw_without_rendering()
+    whole, legend = figure.bbox, ax.get_legend().get_window_extent()
+    assert not legend.overlaps(ax.get_window_extent())
+    for box in (legend, ax.get_tightbbox()):
+        assert whole.x0 <= box.x0 <= box.x1 <= whole.x1
+        assert whole.y0 <= box.y0 <= box.y1 <= whole.y1
+
+
+def test_figures_without_scatter_or_interval(elements):
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    for radii, forces in (([1e-4, 3e-4], [4.0, 9.0]), ([1e-4, 2e-4, 3e-4], [4.0, 7.0, 9.0])):
+        fit = identify(radii, forces, MODULUS, model="elements")
+        low, high = plot_profile(fit, figure.add_subplot()).get_ylim()
+        assert low < fit.profile.modes[0].misfit < high
+
+
+def test_what_has_no_profile_is_refused():
+    fit = identify(RADII, FORCES, MODULUS)
+    for value in (fit, 1.6):
+        with pytest.raises(InputError, match="give such a one"):
+            plot_profile(value)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--toughness-max 0", "toughness_max must be"),
+        ("--toughness-max 1kPa", "not a toughness"),
+        ("--toughness-prior 1J/m2", "expected 2 arguments"),
+        ("--wear-strength 1kPa --wear-strength-prior 1kPa 1kPa", "must not both be given"),
+        ("--further-radii 1mm 0.1mm --toughness-max 2", "smaller one"),
+    ],
+)
+def test_bad_options_end_in_one_line(cuts, options, words, capsys):
+    assert main(shlex.split(f"identify {cuts} --shear-modulus 685Pa {options}")) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert words in error
