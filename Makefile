@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow campaign-quick verify check format clean
+.PHONY: demo test test-slow campaign-quick verify docs check format clean
 .DEFAULT_GOAL := demo
 
 $(BIN)/python:
@@ -16,6 +16,10 @@ $(VENV)/.demo-installed: pyproject.toml | $(BIN)/python
 $(VENV)/.dev-installed: pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --editable '.[all,dev]'
 	@touch $@ $(VENV)/.demo-installed
+
+$(VENV)/.docs-installed: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --editable '.[docs]'
+	@touch $@
 
 demo: $(VENV)/.demo-installed
 	$(BIN)/python scripts/demo
@@ -32,6 +36,10 @@ campaign-quick: $(VENV)/.dev-installed
 verify: $(VENV)/.dev-installed
 	$(BIN)/python -m fe_training verify --jobs 2
 
+docs: $(VENV)/.docs-installed
+	$(BIN)/python scripts/gallery docs/_gallery
+	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
+
 check: $(VENV)/.dev-installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -42,4 +50,4 @@ format: $(VENV)/.dev-installed
 	$(BIN)/ruff format .
 
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) build dist docs/_build docs/_gallery .pytest_cache .mypy_cache .ruff_cache .hypothesis

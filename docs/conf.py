@@ -1,0 +1,84 @@
+"""Sphinx configuration: `make docs`."""
+
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from pygments.lexers.special import TextLexer  # noqa: E402
+
+import surrogate  # noqa: E402
+
+project = "wirecut"
+author = "The wirecut developers"
+copyright = author
+release = version = surrogate.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
+exclude_patterns = ["_build"]
+templates_path = []
+default_role = "py:obj"
+
+myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_heading_anchors = 3
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the docstrings say it, with units
+autosummary_generate = False
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+
+html_theme = "furo"
+html_title = f"wirecut {release}"
+html_copy_source = False
+html_show_sphinx = False
+
+
+SECTIONS = {
+    "Forces": ("scene", "force", "gradient", "propagation", "contact"),
+    "Regimes and maps": ("regimes", "maps", "map_plots", "map_points", "radii"),
+    "From forces to the material": ("identification", "design", "data", "plots"),
+    "The paper's equations": ("equations",),
+}
+
+
+def reference() -> str:
+    """Return an entry for every public name, by the module that it comes from."""
+    listed: dict[str, list[str]] = {title: [] for title in (*SECTIONS, "Models", "Errors")}
+    for name in surrogate.__all__:
+        value = getattr(surrogate, name)
+        if not callable(value):
+            continue
+        module = value.__module__.rpartition(".")[2]
+        title = next((t for t, modules in SECTIONS.items() if module in modules), "Models")
+        if isinstance(value, type) and issubclass(value, Exception):
+            title = "Errors"
+        kind = "autoclass" if isinstance(value, type) else "autofunction"
+        members = "   :members:\n" if kind == "autoclass" else ""
+        listed[title].append(f".. {kind}:: surrogate.{name}\n{members}")
+    parts = [
+        f"## {title}\n\n```{{eval-rst}}\n{''.join(entries)}```\n"
+        for title, entries in listed.items()
+        if entries
+    ]
+    return "\n".join(parts)
+
+
+def add_reference(app: object, page: str, source: list[str]) -> None:
+    """Add the entries to the reference page."""
+    if page == "api":
+        source[0] += "\n" + reference()
+
+
+def setup(app: object) -> None:
+    """Ask Sphinx to call `add_reference`, and to print tables as they are."""
+    app.add_lexer("csv", TextLexer)  # type: ignore[attr-defined]
+    app.connect("source-read", add_reference)  # type: ignore[attr-defined]
