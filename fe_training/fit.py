@@ -62,11 +62,11 @@ def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
     touch = fit_touch(points)
     limits = Domain(_ends(points.g), _ends(points.alpha), touch.coefficients, _growth(points))
     processes, _ = fit_processes(points, touch)
-    table = fit_table(ProcessModel(limits, processes))
+    table = fit_table(ProcessModel(limits, processes, touch.error))
     constants = fit_blend(points, touch)
     told = {**(about or {}), "eq9": eq9_fits(points), "touch_points": _touch_points(touch)}
-    bare = Fitted(limits, processes, table, constants, told)
-    bounds = fit_bounds(points, processes, bare.models)
+    bare = Fitted(limits, processes, table, constants, touch.error, told)
+    bounds = fit_bounds(points, touch, processes, bare.models)
     return replace(bare, about={**told, "bounds": bounds.as_dict()})
 
 

@@ -1,7 +1,8 @@
 """Bounds of the models' errors over cells of (g, alpha), from the campaign alone.
 
 The processes and the table: the largest error of any point of a cell when it, or its whole alpha,
-is predicted from the others. The formulas: their largest distance from the table on a fine grid of
+is predicted from the others, times a factor of safety; where the touch of the tip is in the cell,
+also what its error does. The formulas: their largest distance from the table on a fine grid of
 the cell, and the table's own bound.
 """
 
@@ -15,10 +16,12 @@ from numpy.typing import NDArray
 from surrogate.bounds import Bounds
 from surrogate.force_models import FORCE_MODELS, ForceModel
 from surrogate.gaussian_process import GaussianProcess
-from surrogate.quantities import QUANTITIES
+from surrogate.quantities import QUANTITIES, coordinates
+from surrogate.touch import log_touch
 
 from .fit_gp import leave_out_errors
 from .fit_points import FitPoints
+from .fit_touch import Touch
 
 __all__ = ["fit_bounds", "left_out_errors"]
 
@@ -26,11 +29,15 @@ Floats = NDArray[np.float64]
 
 ALPHA_EDGES = (2.0, 3.0, 5.0, 9.0)
 G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0)
+SAFETY = 1.5
+"""How many times the largest error of a few dozen points of a cell the largest of all may be."""
+
 _GRID = 24  # points of a cell along each direction
 
 
 def fit_bounds(
     points: FitPoints,
+    touch: Touch,
     processes: Mapping[str, GaussianProcess],
     models: Mapping[str, ForceModel],
 ) -> Bounds:
@@ -40,6 +47,8 @@ def fit_bounds(
     ----------
     points : FitPoints
         What was computed.
+    touch : Touch
+        g_touch(alpha).
     processes : mapping of str to GaussianProcess
         The fitted processes.
     models : mapping of str to ForceModel
@@ -49,33 +58,60 @@ def fit_bounds(
     -------
     Bounds
     """
-    g_edges = _edges(G_EDGES, points.g)
-    alpha_edges = _edges(ALPHA_EDGES, points.alpha)
-    shape = len(g_edges) - 1, len(alpha_edges) - 1
+    edges = _edges(G_EDGES, points.g), _edges(ALPHA_EDGES, points.alpha)
     left_out = left_out_errors(points, processes)
-    errors: dict[str, dict[str, Floats]] = {
-        name: {} for name in ("eq13", "power-law", "table", "gp")
-    }
-    formulas = {"eq13": FORCE_MODELS["eq13"], "power-law": models["power-law"]}
+    errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
     for function in QUANTITIES:
-        own = np.zeros(shape)
-        for row, column in np.ndindex(shape):
-            inside = _inside(points, g_edges[row : row + 2], alpha_edges[column : column + 2])
-            some = left_out[function][inside]
-            own[row, column] = np.max(some, initial=0.0)
-        own[own == 0.0] = np.max(own)  # a cell without a point is as doubtful as the worst
-        apart = {name: np.zeros(shape) for name in ("eq13", "power-law", "gp")}
-        for row, column in np.ndindex(shape):
-            g, alpha = _grid(g_edges[row : row + 2], alpha_edges[column : column + 2])
-            truth = models["table"].contact((function,), g, alpha)[0]
-            for name, model in (*formulas.items(), ("gp", models["gp"])):
-                value = np.broadcast_to(model.contact((function,), g, alpha)[0], g.shape)
-                apart[name][row, column] = np.max(np.abs(np.log(value / truth)))
-        errors["gp"][function] = own
-        errors["table"][function] = own + apart["gp"]
-        for name in formulas:
-            errors[name][function] = apart[name] + errors["table"][function]
-    return Bounds(g_edges, alpha_edges, errors)
+        found = {name: np.zeros([len(each) - 1 for each in edges]) for name in errors}
+        own = _own_errors(points, left_out[function], edges)
+        for cell in np.ndindex(own.shape):
+            g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+            bound = SAFETY * own[cell] + _bend_error(processes[function], touch, g, alpha)
+            at = _grid(g, alpha)
+            table = models["table"].contact((function,), *at)[0]
+            apart = {
+                name: _apart(model, function, at, table)
+                for name, model in (("eq13", FORCE_MODELS["eq13"]), *models.items())
+            }
+            found["gp"][cell] = bound
+            found["table"][cell] = bound + apart["gp"]
+            for name in ("eq13", "power-law"):
+                found[name][cell] = found["table"][cell] + apart[name]
+        for name, values in found.items():
+            errors[name][function] = values
+    return Bounds(*edges, errors)
+
+
+def _own_errors(
+    points: FitPoints, errors: Floats, edges: tuple[tuple[float, ...], tuple[float, ...]]
+) -> Floats:
+    """Return the largest error of the points of each cell."""
+    largest = np.zeros([len(each) - 1 for each in edges])
+    for cell in np.ndindex(largest.shape):
+        g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+        inside = (points.g >= g[0]) & (points.g <= g[1])
+        inside &= (points.alpha >= alpha[0]) & (points.alpha <= alpha[1])
+        largest[cell] = np.max(errors[inside], initial=0.0)
+    largest[largest == 0.0] = np.max(largest)  # a cell without a point is as doubtful as the worst
+    return largest
+
+
+def _bend_error(
+    process: GaussianProcess, touch: Touch, g: tuple[float, ...], alpha: tuple[float, ...]
+) -> float:
+    """Return what an error of g_touch does where the function bends, if it does in this cell."""
+    log_alpha = np.log(np.linspace(alpha[0], alpha[1], _GRID))
+    touched = log_touch(touch.coefficients, log_alpha)
+    here = (touched >= np.log(g[0])) & (touched <= np.log(g[1]))
+    if not np.any(here):
+        return 0.0
+    at = coordinates(touched[here], log_alpha[here], touched[here])
+    return float(2.0 * touch.error * np.max(np.abs(process.gradient(at)[:, 2])))
+
+
+def _apart(model: ForceModel, function: str, at: tuple[Floats, Floats], table: Floats) -> float:
+    value = model.contact((function,), *at)[0]
+    return float(np.max(np.abs(np.log(np.broadcast_to(value, table.shape) / table))))
 
 
 def left_out_errors(
@@ -120,11 +156,6 @@ def _edges(wanted: tuple[float, ...], values: Floats) -> tuple[float, ...]:
     """Return edges whose ends are those of the values."""
     low, high = float(values.min()), float(values.max())
     return (low, *(edge for edge in wanted if low < edge < high), high)
-
-
-def _inside(points: FitPoints, g: tuple[float, ...], alpha: tuple[float, ...]) -> NDArray[np.bool_]:
-    within = (points.g >= g[0]) & (points.g <= g[1])
-    return np.asarray(within & (points.alpha >= alpha[0]) & (points.alpha <= alpha[1]))
 
 
 def _grid(g: tuple[float, ...], alpha: tuple[float, ...]) -> tuple[Floats, Floats]:

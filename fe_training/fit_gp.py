@@ -59,9 +59,7 @@ def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floa
     x, gap = log_g - touched, points.distance - 1.0
     short = (x < -NEAREST) & (gap > 0.0)
     x, gap = np.where(short, x, -1.0), np.where(short, gap, 1.0)
-    spread = np.hypot(
-        points.distance_std * points.distance / gap, POWER * max(touch.misfit, 2e-3) / x
-    )
+    spread = np.hypot(points.distance_std * points.distance / gap, POWER * touch.error / x)
     distance = np.log(gap / (vertex(x) * wedge["distance"]))
     return {
         "arc": (at, np.log(points.arc / wedge["arc"]), (points.arc_std / points.arc) ** 2),

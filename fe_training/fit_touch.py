@@ -48,6 +48,11 @@ class Touch:
     std: Floats
     misfit: float
 
+    @property
+    def error(self) -> float:
+        """Standard error of ln g_touch at any alpha [-]."""
+        return max(self.misfit, _SMALLEST_ERROR)
+
 
 def fit_touch(points: FitPoints) -> Touch:
     """Return g_touch(alpha) from the distances on either side of the touch.

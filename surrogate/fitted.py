@@ -39,6 +39,8 @@ class Fitted:
         Of A, B and (delta/R_w - 1)/|x|^(7/4).
     constants : mapping of str to tuple of float
         Those of the formula of `BlendModel`.
+    touch_error : float
+        Standard error of ln g_touch [-].
     about : mapping
         Errors, power laws of single alphas, provenance: what is told, not computed with.
     """
@@ -47,6 +49,7 @@ class Fitted:
     processes: Mapping[str, GaussianProcess] = field(repr=False)
     table: CellTable = field(repr=False)
     constants: Mapping[str, tuple[float, ...]]
+    touch_error: float
     about: Mapping[str, Any] = field(repr=False)
 
     @cached_property
@@ -60,7 +63,7 @@ class Fitted:
         models = (
             BlendModel(self.limits, self.constants),
             TableModel(self.limits, self.table),
-            ProcessModel(self.limits, self.processes),
+            ProcessModel(self.limits, self.processes, self.touch_error),
         )
         return {model.name: model for model in models}
 
@@ -73,6 +76,7 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
         "units": "R_w = 1, mu = 1, forces and energies per unit thickness",
         "domain": {"g": limits.g, "alpha": limits.alpha},
         "touch": limits.touch,
+        "touch_error": fitted.touch_error,
         "growth": limits.growth,
         "constants": {name: list(values) for name, values in fitted.constants.items()},
         "grid": {name: getattr(grid, name) for name in ("beyond", "short", "past", "stiffening")},
@@ -122,9 +126,10 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
             {name: _process(name, limits, about["prior"][name], arrays) for name in QUANTITIES},
             CellTable(grid, {name: _nodes(name, grid, arrays) for name in QUANTITIES}),
             {name: _floats(values) for name, values in about["constants"].items()},
+            float(about["touch_error"]),
             about,
         )
-    except (KeyError, ValueError, TypeError, IndexError) as error:
+    except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
         raise InputError(
             f"the fitted models must be complete, but {error!r} was met; install wirecut again, "
             "or make the file anew with regen-surrogate."

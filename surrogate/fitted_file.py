@@ -116,7 +116,7 @@ def _decoded(file: Path, content: bytes) -> tuple[dict[str, Any], dict[str, NDAr
             return about, {name: archive[name] for name in archive.files if name != _ABOUT}
     except InputError:
         raise
-    except (KeyError, ValueError, TypeError, OSError, zipfile.BadZipFile) as error:
+    except (KeyError, ValueError, TypeError, OSError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(
             f"{file} must be a file of fitted models, but it cannot be decoded ({error}); "
             f"{_REMEDY}."

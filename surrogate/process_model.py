@@ -31,10 +31,13 @@ class ProcessModel(FittedModel):
         Its domain.
     processes : mapping of str to GaussianProcess
         Of the quantities of `surrogate.quantities`.
+    touch_error : float
+        Standard error of ln g_touch, which the standard deviation of delta contains [-].
     """
 
     limits: Domain
     processes: Mapping[str, GaussianProcess] = field(repr=False)
+    touch_error: float = 0.0
     name: str = "gp"
     uncertain: bool = True
     equation: str = "Gaussian processes"
@@ -76,6 +79,9 @@ class ProcessModel(FittedModel):
         for name in names:
             mean, std = self.processes[name].predict(at)
             size = _value(name, mean, scales) - (1.0 if name == "distance" else 0.0)
+            if name == "distance":
+                x = np.minimum(at[:, 0] - self.limits.log_touch(at[:, 1]), -self.touch_error)
+                std = np.hypot(std, POWER * self.touch_error / x)
             stds.append(np.where(inside, size * std, np.nan))
         return stds
 

@@ -1,0 +1,180 @@
+"""The choice among models: what is evaluated, what is promised, what is refused."""
+
+import numpy as np
+import pytest
+from made_up import truth
+
+from surrogate import (
+    AccuracyError,
+    DomainError,
+    InputError,
+    Scene,
+    contact_functions,
+    cutting_force,
+    dissipative_force,
+)
+from surrogate.fitted_models import FittedModel
+
+pytestmark = pytest.mark.usefixtures("installed")
+
+RADIUS = 1e-4
+
+
+def scene(g, alpha, xi, ratio):
+    """Return a scene of these numbers, with tau_w/mu = ratio xi or, for xi = 0, ratio."""
+    wear = 685.0 * ratio * np.where(np.equal(xi, 0.0), 1.0, xi)
+    return Scene(685.0, 685.0 * RADIUS * np.asarray(g), RADIUS, xi, wear, alpha)
+
+
+def true_force(cut):
+    arc, load, _ = truth(cut.dimensionless_toughness, cut.stiffening_exponent)
+    return cut.toughness + 2.0 * RADIUS * (
+        cut.wear_strength * arc + cut.friction_coefficient * 685.0 * load
+    )
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """Count the points at which each function of each model is evaluated."""
+    counts = {}
+    for kind in FittedModel.__subclasses__():
+
+        def counting(self, names, log_g, log_alpha, g, of=kind.inside):
+            for name in names:
+                key = self.name, name
+                counts[key] = counts.get(key, 0) + np.size(log_g)
+            return of(self, names, log_g, log_alpha, g)
+
+        monkeypatch.setattr(kind, "inside", counting)
+    return counts
+
+
+def test_without_friction_no_load_is_evaluated(counted):
+    cutting_force(scene(1.0, 3.0, 0.0, 2.0), "auto", rtol=0.01)
+    assert {name for _, name in counted} == {"arc"}
+
+
+def test_without_wear_no_arc_is_evaluated(counted):
+    cutting_force(scene(1.0, 3.0, 0.5, 0.0), "auto", rtol=0.01)
+    assert {name for _, name in counted} == {"normal_load"}
+
+
+def test_with_neither_nothing_is_evaluated_anywhere(counted):
+    force = cutting_force(scene([1e-9, 1.0, 1e9], 30.0, 0.0, 0.0), "auto", rtol=1e-12)
+    assert not counted
+    np.testing.assert_array_equal(force.total, force.cleavage)
+    assert force.relative_error.tolist() == [0.0, 0.0, 0.0]
+    assert force.model == "eq13"
+
+
+def test_a_term_below_the_tolerance_is_not_evaluated(counted):
+    """Friction of about 1e-4 of the force at rtol = 1 %, with its own bound far below that."""
+    force = cutting_force(scene(1.0, 3.0, 1e-4, 1e4), "auto", rtol=0.01)
+    assert {name for _, name in counted} == {"arc"}
+    assert force.friction == cutting_force(scene(1.0, 3.0, 1e-4, 1e4), "eq13").friction
+    assert force.relative_error <= 0.01
+
+
+def test_where_the_closed_form_will_do_nothing_is_evaluated(counted):
+    force = cutting_force(scene(50.0, 3.0, 0.0, 0.05), "auto", rtol=0.05)
+    assert not counted
+    assert (force.model, force.chosen) == ("eq13", "eq13")
+
+
+@pytest.mark.parametrize("model", ["power-law", "table", "gp"])
+def test_named_models_evaluate_what_the_scene_has(counted, model):
+    cutting_force(scene([1.0, 2.0], 3.0, 0.0, 2.0), model)
+    assert counted == {(model, "arc"): 2}
+    cutting_force(scene([1.0, 2.0], 3.0, 0.1, 0.0), model)
+    assert counted == {(model, "arc"): 2, (model, "normal_load"): 2}
+
+
+def test_each_point_is_evaluated_by_one_model_only(counted):
+    g = np.geomspace(6e-3, 50.0, 40)
+    force = cutting_force(scene(g, 3.0, 0.3, 1.0), "auto", rtol=0.05)
+    assert force.model == "auto"
+    assert len(set(force.chosen.tolist())) > 1
+    for model in set(force.chosen.tolist()) - {"eq13"}:
+        points = np.count_nonzero(force.chosen == model)
+        assert max(n for (name, _), n in counted.items() if name == model) <= points
+
+
+@pytest.mark.parametrize("rtol", [0.3, 0.05, 0.01])
+def test_the_promise_is_kept(rtol):
+    random = np.random.default_rng(1)
+    g, alpha = np.exp(random.uniform(np.log(5e-3), np.log(60.0), 400)), random.uniform(2, 9, 400)
+    for xi in (0.0, 0.01, 0.5):
+        for ratio in (0.0, 0.1, 1.0, 100.0):
+            cut = scene(g, alpha, xi, ratio)
+            force = cutting_force(cut, "auto", rtol=rtol)
+            assert np.all(force.relative_error <= rtol)
+            assert np.all(np.abs(force.total / true_force(cut) - 1.0) <= force.relative_error)
+
+
+def test_more_is_asked_of_costlier_models():
+    order = ["eq13", "power-law", "table", "gp"]
+    cut = scene(1.0, 3.0, 0.3, 3.0)
+    chosen = [cutting_force(cut, "auto", rtol=r).model for r in (1.0, 0.2, 0.01)]
+    assert chosen == sorted(chosen, key=order.index)
+    assert len(set(chosen)) == 3
+
+
+def test_an_accuracy_that_none_has_is_an_error_that_names_the_best():
+    message = (
+        r"rtol = 1e-06 is not at g = 1, alpha = 3 \(1 of 1 points\), .*the best is 'gp'.*rtol="
+    )
+    with pytest.raises(AccuracyError, match=message) as caught:
+        cutting_force(scene(1.0, 3.0, 0.1, 1.0), "auto", rtol=1e-6)
+    offered = float(str(caught.value).partition("give rtol=")[2].partition(" ")[0])
+    assert cutting_force(scene(1.0, 3.0, 0.1, 1.0), "auto", rtol=offered).model in (
+        "table",
+        "gp",
+    )
+
+
+@pytest.mark.parametrize("rtol", [0.0, -1.0, np.nan, np.inf, "small", [0.1, 0.2]])
+def test_what_is_no_tolerance_is_refused(rtol):
+    with pytest.raises(InputError, match="rtol must be"):
+        cutting_force(scene(1.0, 3.0, 0.1, 1.0), "auto", rtol=rtol)
+
+
+def test_outside_the_domain():
+    with pytest.raises(DomainError, match="g = Gamma_o"):
+        cutting_force(scene(1e-3, 3.0, 0.1, 1.0), "auto")
+    force = cutting_force(scene([1e-3, 1.0], 3.0, 0.1, 1.0), "auto", extrapolate=True)
+    assert force.in_domain.tolist() == [False, True]
+    assert np.isnan(force.relative_error[0])
+    expected = cutting_force(scene(1e-3, 3.0, 0.1, 1.0), "table", extrapolate=True).total
+    assert force.total[0] == expected
+
+
+def test_numbers_and_arrays_agree():
+    g = np.geomspace(6e-3, 50.0, 12)
+    together = cutting_force(scene(g, 3.0, 0.3, 1.0), "auto", rtol=0.1)
+    for i, each in enumerate(g):
+        alone = cutting_force(scene(float(each), 3.0, 0.3, 1.0), "auto", rtol=0.1)
+        assert type(alone.total) is float
+        assert (alone.total, alone.chosen) == (together.total[i], together.chosen[i])
+        assert alone.relative_error == together.relative_error[i]
+
+
+def test_dissipative_forces_are_within_the_tolerance_of_themselves():
+    g = np.geomspace(6e-3, 50.0, 50)
+    arc, load, _ = truth(g, 3.0)
+    expected = 2.0 * (0.5 * arc + 0.1 * load)
+    found = dissipative_force(g, 3.0, 0.1, 0.5, model="auto", rtol=0.01)
+    assert np.max(np.abs(found / expected - 1.0)) <= 0.01
+
+
+def test_contact_functions_within_a_tolerance():
+    g = np.geomspace(6e-3, 50.0, 30)
+    contact = contact_functions(g, 3.0, model="auto", rtol=0.01)
+    for found, true in zip(
+        (contact.arc, contact.normal_load, contact.delta), truth(g, 3.0), strict=True
+    ):
+        assert np.max(np.abs(found / true - 1.0)) <= 0.01
+    alone = contact_functions(1.0, 3.0, model="auto", rtol=0.01)
+    assert type(alone.arc) is float
+    assert alone.model == alone.chosen == "table"
+    with pytest.raises(AccuracyError):
+        contact_functions(1.0, 3.0, model="auto", rtol=1e-9)
