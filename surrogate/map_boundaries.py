@@ -21,7 +21,7 @@ from surrogate.map_axes import MapAxis, Monomial
 from surrogate.regimes import CONTACTS, SPLIT_MODEL, TOUCHING_TOUGHNESS, touching_toughness
 from surrogate.scene import Scene
 
-__all__ = ["LIMITS", "MapTerms", "boundaries"]
+__all__ = ["LIMITS", "MapTerms", "boundaries", "formula_name"]
 
 Array = NDArray[np.float64]
 Sum = tuple[Monomial, ...]
@@ -53,6 +53,8 @@ class MapTerms:
         The scene's quantities in x and y.
     scene : Scene
         The scene at the nodes.
+    model : str
+        Name of the force model.
     force : CuttingForce
         Its force.
     shares : mapping of str to ndarray
@@ -63,13 +65,9 @@ class MapTerms:
     y: MapAxis
     quantities: Mapping[str, Monomial]
     scene: Scene
+    model: str
     force: CuttingForce
     shares: Mapping[str, Any]
-
-    @property
-    def model(self) -> str:
-        """Name of the force model."""
-        return self.force.model
 
     def contours(self, values: Any, level: float) -> Lines:
         """Return where values at the nodes have a level."""
@@ -160,15 +158,26 @@ def _limit(terms: MapTerms, limit: str, miss: float) -> Boundary:
             lines = tuple(line for piece in pieces for line in piece)  # type: ignore[union-attr]
     exact = lines is not None
     if lines is None:
-        force = cutting_force(terms.scene, model=limit).total
+        force = cutting_force(terms.scene, limit, extrapolate=True).total
         with np.errstate(all="ignore"):
             off = np.divide(force, terms.force.total) - 1.0
         lines = (*terms.contours(off, -miss), *terms.contours(off, miss))
-    name = FORCE_MODELS[limit].equation
+    name = formula_name(limit)
     share = f"{100.0 * miss:.3g}"
-    return Boundary(
-        "limit", (limit,), f"{name} is off by {share} %", rf"{name}\ {share}\,\%", exact, lines
-    )
+    equation, symbol = f"{name} is off by {share} %", rf"\mathrm{{{name}}}\ {share}\,\%"
+    return Boundary("limit", (limit,), equation, symbol, exact, lines)
+
+
+def formula_name(model: str) -> str:
+    """Return what figures call a model: the number of its equation, or its own name.
+
+    Examples
+    --------
+    >>> formula_name("eq13"), formula_name("auto")
+    ('Eq. (13)', 'auto')
+    """
+    form = FORCE_MODELS.get(model)
+    return model if form is None else form.equation
 
 
 def _contact(terms: MapTerms) -> Boundary:

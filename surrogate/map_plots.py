@@ -22,9 +22,10 @@ from surrogate.figures import (
     picture_file,
     save_figure,
 )
-from surrogate.force_models import FORCE_MODELS, force_model
+from surrogate.force_models import force_model
 from surrogate.label_places import GRID, best_place, blocked_by_line
 from surrogate.map_axes import MapAxis
+from surrogate.map_boundaries import formula_name
 from surrogate.map_points import MapPoints, places
 from surrogate.map_style import (
     ERROR_COLOURS,
@@ -135,10 +136,10 @@ def plot_regime_map(
     for i, (one, centre, error) in enumerate(located):
         handles.append(_draw_points(ax, made, one, centre, error, POINT_MARKERS[i % 6]))
         drawn += _bars(centre, error)
-    legend_above(ax, _COLUMNS[width], handles + outside)
+    columns = _add_legend(ax, _COLUMNS[width], handles + outside)
     if nameless := _name_regions(ax, made, drawn, error_of is not None):
         regions = [_patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]
-        legend_above(ax, _COLUMNS[width], handles + outside + regions)
+        _add_legend(ax, columns, handles + outside + regions)
     return ax
 
 
@@ -245,8 +246,7 @@ def _fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
         zorder=0,
     )
     bar = ax.figure.colorbar(filled, ax=ax, shrink=0.85, pad=0.02)
-    equation = FORCE_MODELS[model].equation if model in FORCE_MODELS else model
-    bar.set_label(f"error of {equation} [%]", fontsize=MEDIUM)
+    bar.set_label(f"error of {formula_name(model)} [%]", fontsize=MEDIUM)
     bar.ax.tick_params(labelsize=SMALL)
 
 
@@ -370,6 +370,21 @@ def _bars(centre: Array, error: Array) -> list[Array]:
         np.array([[x, a], [x, b]]) for x, a, b in zip(centre[0], low[1], high[1], strict=True)
     ]
     return horizontal + vertical
+
+
+def _add_legend(ax: Axes, columns: int, handles: list[Any]) -> int:
+    """Put a legend above the axes that is no wider than they are; return its columns."""
+    root = ax.figure.canvas.figure
+    if old := ax.get_legend():
+        old.remove()
+    root.draw_without_rendering()
+    room = 1.1 * ax.get_window_extent().width
+    for number in range(columns, 0, -1):
+        legend_above(ax, number, handles)
+        legend = ax.get_legend()
+        if legend is None or legend.get_window_extent().width <= room:
+            break
+    return number
 
 
 def _patch(label: str, colour: str, **style: Any) -> Any:

@@ -42,6 +42,8 @@ class RegimeMap:
         The axes with their nodes.
     fixed : mapping of str to float
         What else was given [SI].
+    model : str
+        Name of the force model that was asked for.
     units : tuple of str
         Quantities that are 1 because only dimensionless groups were given: the units of the map.
     scene : Scene
@@ -78,6 +80,7 @@ class RegimeMap:
     x: MapAxis
     y: MapAxis
     fixed: Mapping[str, float]
+    model: str
     units: tuple[str, ...]
     scene: Scene
     force: CuttingForce
@@ -86,11 +89,6 @@ class RegimeMap:
     miss: float
     boundaries: tuple[Boundary, ...]
     quantities: Mapping[str, Monomial]
-
-    @property
-    def model(self) -> str:
-        """Name of the force model."""
-        return self.force.model
 
     @property
     def force_unit(self) -> str:
@@ -172,7 +170,8 @@ class RegimeMap:
         UnknownModelError
             If there is no such model.
         """
-        return relative_difference(cutting_force(self.scene, model=model).total, self.force.total)
+        other = cutting_force(self.scene, model, extrapolate=True)
+        return relative_difference(other.total, self.force.total)
 
     def to_csv(self, file: str | PathLike[str]) -> None:
         """Write one line a node: coordinates, force, shares and regime, with units in the header.
@@ -224,6 +223,7 @@ def regime_map(
     fixed: Mapping[str, float] | None = None,
     model: str = "eq13",
     *,
+    rtol: float = 0.02,
     scales: Sequence[str] = ("log", "log"),
     nodes: int = 201,
     threshold: float = DOMINANT_SHARE,
@@ -246,7 +246,10 @@ def regime_map(
         and alpha is 2 where nothing says otherwise. Where only dimensionless groups are given, mu
         and R_w are the units of the map.
     model : str, default "eq13"
-        The force model, as in `cutting_force`.
+        The force model, as in `cutting_force`. Outside its domain a fitted model is continued by
+        its asymptotes; `in_domain` says where.
+    rtol : float, default 0.02
+        Relative error of the force that will do with "auto" [-].
     scales : pair of str, default ("log", "log")
         "log" or "linear", of x and of y.
     nodes : int, default 201
@@ -271,6 +274,8 @@ def regime_map(
         If there is no such model.
     DomainError
         If the model has no answer at a node.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
     WirecutError
         If the model has no closed form and contourpy, which comes with matplotlib, is missing.
 
@@ -310,15 +315,16 @@ def regime_map(
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = _scene(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share = one_number(MISS, miss)
-    force = cutting_force(scene, model=model)
-    regime = classify(scene, threshold, model)
-    shares = term_shares(scene, model)
-    terms = MapTerms(axes[0], axes[1], quantities, scene, force, shares)
+    force = cutting_force(scene, model, rtol, extrapolate=True)
+    regime = classify(scene, threshold, model, rtol, extrapolate=True)
+    shares = term_shares(scene, force, model)
+    terms = MapTerms(axes[0], axes[1], quantities, scene, model, force, shares)
     made = boundaries(terms, regime.threshold, tuple(limits), share)
     return RegimeMap(
         axes[0],
         axes[1],
         MappingProxyType(given),
+        model,
         units,
         scene,
         force,

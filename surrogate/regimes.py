@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.elementwise import apply, product, ratio
-from surrogate.force import cutting_force
-from surrogate.force_models import FORCE_MODELS
+from surrogate.force import AUTO, CuttingForce, cutting_force
+from surrogate.force_models import force_model
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import ABOVE_HALF, FloatOrArray, Quantity, one_number
@@ -80,7 +80,13 @@ class Regime(Record):
     threshold: float
 
 
-def classify(scene: Scene, threshold: float = DOMINANT_SHARE, model: str = SPLIT_MODEL) -> Regime:
+def classify(
+    scene: Scene,
+    threshold: float = DOMINANT_SHARE,
+    model: str = SPLIT_MODEL,
+    rtol: float = 0.02,
+    extrapolate: bool = False,
+) -> Regime:
     """Return which term of the force dominates, and whether the wire touches the crack tip.
 
     Parameters
@@ -92,6 +98,10 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE, model: str = SPLIT
         up to 1. The default asks for twice as much as the other terms together.
     model : str, default "eq13"
         The force model, as in `cutting_force`.
+    rtol : float, default 0.02
+        Relative error of the force that will do with "auto" [-].
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain, as in `cutting_force`.
 
     Returns
     -------
@@ -111,6 +121,8 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE, model: str = SPLIT
         If there is no such model.
     DomainError
         If the model has no answer there.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
 
     Notes
     -----
@@ -132,45 +144,47 @@ def classify(scene: Scene, threshold: float = DOMINANT_SHARE, model: str = SPLIT
     """
     require_scene(scene)
     share = one_number(THRESHOLD, threshold)
-    names = DOMINANCES if model == SPLIT_MODEL else PARTS
-    terms = (0.0, 0.0, 0.0) if model == SPLIT_MODEL else _parts(scene, model)
+    split = isinstance(model, str) and model == SPLIT_MODEL
+    terms: Any = (0.0, 0.0, 0.0)
+    if not split:
+        terms = _parts(cutting_force(scene, model, rtol, extrapolate))
     touch = touching_toughness(model, scene.stiffening_exponent)
 
     def codes(mu: Any, gamma: Any, radius: Any, *others: Any) -> tuple[Any, Any]:
         xi, wear, _, touch, *parts = others
-        three = _terms(mu, gamma, radius, xi, wear) if model == SPLIT_MODEL else parts
+        three = _terms(mu, gamma, radius, xi, wear) if split else parts
         total = three[0] + three[1] + three[2]
         # At most one comparison holds; 0/0 and inf/inf are nan, which makes none hold.
         dominant = sum(i * (ratio(term, total) >= share) for i, term in enumerate(three, start=1))
         return dominant, gamma > touch * (mu * radius)
 
     dominant, touching = apply(codes, (*scene.values(), touch, *terms), (np.int8, bool))
+    names = DOMINANCES if split else PARTS
     return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share)
 
 
-def term_shares(scene: Scene, model: str = SPLIT_MODEL) -> dict[str, FloatOrArray]:
+def term_shares(scene: Scene, force: CuttingForce, model: str) -> dict[str, FloatOrArray]:
     """Return the share of the force [-] that each term has, by the names that `classify` uses.
 
-    A share is nan where the force is 0 or overflows.
+    The force is that of the scene by the model. A share is nan where it is 0 or overflows.
 
     Examples
     --------
-    >>> shares = term_shares(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
+    >>> scene = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
+    >>> shares = term_shares(scene, cutting_force(scene), "eq13")
     >>> {name: round(share, 4) for name, share in shares.items()}
     {'toughness-and-friction': 0.1837, 'wear': 0.8091, 'friction-stiffness': 0.0072}
     """
-    if model == SPLIT_MODEL:
-        names, arguments = DOMINANCES[1:], scene.values()
-    else:
-        names, arguments = PARTS[1:], _parts(scene, model)
+    split = model == SPLIT_MODEL
+    names, arguments = (DOMINANCES, scene.values()) if split else (PARTS, _parts(force))
 
     def shares(*values: Any) -> Any:
-        three = _terms(*values[:5]) if model == SPLIT_MODEL else values
+        three = _terms(*values[:5]) if split else values
         total = three[0] + three[1] + three[2]
         return tuple(ratio(term, total) for term in three)
 
     found = apply(shares, arguments, (float, float, float))
-    return dict(zip(names, found, strict=True))
+    return dict(zip(names[1:], found, strict=True))
 
 
 def touching_toughness(model: str, alpha: FloatOrArray) -> FloatOrArray:
@@ -181,7 +195,7 @@ def touching_toughness(model: str, alpha: FloatOrArray) -> FloatOrArray:
     >>> touching_toughness("eq13", 2.0)
     1.0
     """
-    own = getattr(FORCE_MODELS.get(model), "touching_toughness", None)
+    own = getattr(force_model("table" if model == AUTO else model), "touching_toughness", None)
     return TOUCHING_TOUGHNESS if own is None else own(alpha)
 
 
@@ -190,8 +204,7 @@ def _terms(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> tuple[Any, A
     return gamma + xi * gamma, 4.0 * (wear * radius), 4.0 * product(radius, xi, mu)
 
 
-def _parts(scene: Scene, model: str) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
-    force = cutting_force(scene, model=model)
+def _parts(force: CuttingForce) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
     return force.cleavage, force.friction, force.wear
 
 

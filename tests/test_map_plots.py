@@ -98,15 +98,22 @@ def test_the_error_of_a_formula_has_a_bar_of_colours():
 
 
 @pytest.mark.parametrize("width", ["single", "double"])
-@pytest.mark.parametrize("case", ["lengths", "gel", "low-toughness"])
+@pytest.mark.parametrize("case", ["lengths", "gel", "low-toughness", "error"])
 def test_nothing_overlaps_and_nothing_is_cut_off(case, width):
     pytest.importorskip("matplotlib.pyplot")
-    made = {"lengths": lengths, "gel": gel, "low-toughness": lambda: lengths(model=case)}[case]()
-    points = [EXPERIMENT] if case == "gel" else []
-    ax = plot_regime_map(made, points=points, width=width, limits=("high-toughness",))
+    limited = {"low-toughness": "low-toughness", "error": "low-toughness"}
+    made = gel() if case == "gel" else lengths(model=limited.get(case, "eq13"))
+    ax = plot_regime_map(
+        made,
+        points=[EXPERIMENT] if case == "gel" else [],
+        width=width,
+        limits=("high-toughness",),
+        error_of="eq13" if case == "error" else None,
+    )
     figure = ax.figure
     figure.draw_without_rendering()
     axes, whole = ax.get_window_extent(), figure.bbox
+    assert axes.width > 0.55 * whole.width
     assert not ax.get_legend().get_window_extent().overlaps(axes)
     for box in (ax.get_legend().get_window_extent(), ax.get_tightbbox()):
         assert whole.x0 <= box.x0

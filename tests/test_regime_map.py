@@ -189,7 +189,7 @@ def test_shares_add_up_and_know_their_terms():
     other = make("gel", model="low-toughness")
     assert tuple(other.term_shares) == PARTS[1:]
     np.testing.assert_array_equal(other.term_shares["wear"], other.wear_share)
-    np.testing.assert_allclose(sum(term_shares(made.scene).values()), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(sum(term_shares(made.scene, made.force, "eq13").values()), 1.0, rtol=1e-14)
     np.testing.assert_allclose(
         made.relative_force, made.force.total / made.scene.toughness, rtol=1e-15
     )
