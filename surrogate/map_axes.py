@@ -216,7 +216,7 @@ def map_axis(name: str, limits: object, scale: str, nodes: int) -> MapAxis:
 
 @dataclass(frozen=True)
 class Monomial:
-    """factor x^p y^q.
+    """A number times powers of the coordinates of a map, factor x^p y^q.
 
     Examples
     --------
