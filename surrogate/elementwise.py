@@ -34,6 +34,7 @@ __all__ = [
     "proportion",
     "quotient",
     "ratio",
+    "scaled",
     "where",
     "where_normal",
 ]
@@ -120,7 +121,7 @@ def product(a: Any, b: Any, c: Any) -> Any:
     inner = b * c
     if all_normal(inner):
         return a * inner
-    return where_normal(inner, a * inner, _scaled((a, b, c), ()))
+    return where_normal(inner, a * inner, scaled((a, b, c), ()))
 
 
 def quotient(a: Any, b: Any, c: Any) -> Any:
@@ -129,7 +130,7 @@ def quotient(a: Any, b: Any, c: Any) -> Any:
     if all_normal(inner):
         return a / inner
     with np.errstate(all="ignore"):
-        return where_normal(inner, np.divide(a, inner), _scaled((a,), (b, c)))
+        return where_normal(inner, np.divide(a, inner), scaled((a,), (b, c)))
 
 
 def proportion(a: Any, b: Any, c: Any) -> Any:
@@ -137,14 +138,14 @@ def proportion(a: Any, b: Any, c: Any) -> Any:
     inner = b / c
     if all_normal(inner):
         return a * inner
-    return where_normal(inner, a * inner, _scaled((a, b), (c,)))
+    return where_normal(inner, a * inner, scaled((a, b), (c,)))
 
 
 def ratio(a: Any, b: Any) -> Any:
     """Return a / b: infinity where only the divisor is 0, nan where both are."""
     if type(b) is not float:
         return a / np.abs(b)  # -0.0 is 0
-    return a / b if b else _scaled((a,), (b,))
+    return a / b if b else scaled((a,), (b,))
 
 
 def all_normal(x: Any) -> bool:
@@ -189,7 +190,7 @@ def dense(x: Any) -> Any:
     return np.ascontiguousarray(x) if isinstance(x, np.ndarray) else x
 
 
-def _scaled(factors: tuple[Any, ...], divisors: tuple[Any, ...]) -> Any:
+def scaled(factors: tuple[Any, ...], divisors: tuple[Any, ...]) -> Any:
     """Return the product of non-negative factors over that of divisors; only the end can overflow.
 
     Significands and exponents go separate ways until the last step.

@@ -25,6 +25,7 @@ from surrogate.elementwise import (
     evaluate_checked,
     product,
     proportion,
+    scaled,
     where,
     where_normal,
 )
@@ -500,8 +501,17 @@ def table_1_slope(alpha: Any) -> Any:
 
 def _power_law(g: Any, xi: Any, n: Any) -> Any:
     with np.errstate(all="ignore"):
-        force = xi * np.power(dense(g), dense(n))
-    return where(xi == 0.0, 0.0, force)
+        power = _raised(g, n)
+        force = xi * power
+        if not all_normal(power):  # which the product with xi may be all the same
+            root = _raised(g, 0.25 * n)
+            force = where_normal(power, force, scaled((xi, root, root, root, root), ()))
+    return where((xi == 0.0) | (g == 0.0), 0.0, force)
+
+
+def _raised(g: Any, n: Any) -> Any:
+    power = np.power(dense(g), dense(n))
+    return power if isinstance(power, np.ndarray) else float(power)
 
 
 def _high_toughness(gamma: Any, xi: Any) -> Any:
@@ -531,7 +541,12 @@ def _by_terms(slope: Any, mu: Any, radius: Any, xi: Any, wear: Any) -> Any:
 
 
 def _relative(radius: Any, length: Any, xi: Any, relative_wear: Any) -> Any:
-    return (1.0 + xi) + 4.0 * proportion(xi + relative_wear, radius, length)
+    resistance = xi + relative_wear
+    linear = proportion(resistance, radius, length)
+    if not all_normal(resistance):  # the sum may overflow where its product with R_w/l_e does not
+        terms = proportion(xi, radius, length) + proportion(relative_wear, radius, length)
+        linear = where_normal(resistance, linear, terms)
+    return (1.0 + xi) + 4.0 * linear
 
 
 def _friction_free(radius: Any, length: Any) -> Any:

@@ -1,0 +1,100 @@
+"""Sound values of every parameter of the public functions, by name."""
+
+from surrogate.paths import model_file
+from surrogate.scene import NAMES, Scene
+
+__all__ = ["ALIASES", "ARRAYS", "BASE", "CHOICES", "FORCES", "OWN", "RADII", "SCENE", "STD"]
+
+SCENE = dict(zip(NAMES, (685.0, 1.6, 0.25e-3, 0.1, 7750.0, 3.0), strict=True))
+RADII, FORCES, STD = [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], [0.2, 0.3, 0.2, 0.4]
+
+BASE = {
+    **SCENE,
+    "g": 9.0,
+    "alpha": 3.0,
+    "relative_wear_strength": 11.0,
+    "relative_distance": 2.0,
+    "exponent": 1.1,
+    "delta": 2.0,
+    "elasto_cohesive_length": 2e-3,
+    "wear_length": 2e-4,
+    "work_of_fracture": 7e3,
+    "smallest_radius": 1e-4,
+    "largest_radius": 5e-4,
+    "cuts": 5,
+    "line_test_cuts": 1,
+    "goal": "both",
+    "force": FORCES,
+    "force_std": STD,
+    "confidence": 0.95,
+    "threshold": 2.0 / 3.0,
+    "rtol": 0.02,
+    "extrapolate": False,
+    "std": {"toughness": 0.2, "wear_strength": 500.0},
+    "correlation": {("toughness", "wear_strength"): -0.5},
+    "x": "wire_radius",
+    "y": "toughness",
+    "ranges": ((1e-5, 1e-3), (0.1, 10.0)),
+    "fixed": {"shear_modulus": 685.0, "wear_strength": 7750.0, "friction_coefficient": 0.1},
+    "scales": ("log", "log"),
+    "nodes": 5,
+    "limits": ("high-toughness",),
+    "miss": 0.1,
+    "force_label": "measured",
+    "width": "single",
+    "contact": True,
+}
+"""Sound values by the names of parameters."""
+
+OWN = {
+    "identify": {
+        **{"wire_radius": RADII, "wire_diameter": None, "toughness_max": None},
+        **{"wear_strength": None, "toughness_prior": None, "wear_strength_prior": None},
+        **{"further_radii": None},
+    },
+    "design_radii": {"force_std": 0.5, "relative_force_std": None, "expected": None},
+    "read_measurements": {"path": str(model_file("paam-wire-cutting.csv"))},
+    "read_material": {"path": str(model_file("paam-material.json"))},
+    "contact_functions": {"rtol": None},
+    "plot_identification": {"ax": None, "pure_shear_toughness": None},
+    "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},
+}
+"""Sound values of single functions, where the name alone does not tell."""
+
+CHOICES = {
+    "identify": {
+        "wire_diameter": {"wire_radius": None, "wire_diameter": [2e-4, 4e-4, 8e-4, 1e-3]},
+        "toughness_max": {"toughness_max": 5.0},
+        "wear_strength": {"wear_strength": 7e3},
+        "toughness_prior": {"toughness_prior": (1.5, 0.5)},
+        "wear_strength_prior": {"wear_strength_prior": (7e3, 1e3)},
+        "further_radii": {"toughness_max": 5.0, "further_radii": (1e-5, 1e-3)},
+    },
+    "design_radii": {
+        "relative_force_std": {
+            "force_std": None,
+            "relative_force_std": 0.05,
+            "expected": Scene(**SCENE),
+        },
+        "expected": {"expected": Scene(**SCENE)},
+    },
+}
+"""What else has to change for an optional argument to be in use."""
+
+ARRAYS = {
+    *NAMES,
+    *("g", "alpha", "relative_wear_strength", "relative_distance", "exponent", "delta"),
+    *("elasto_cohesive_length", "wear_length", "work_of_fracture"),
+}
+"""Parameters that are numbers or arrays, one result for each entry."""
+
+ALIASES = {
+    "identify": ("radii", "forces", "wire", "standard errors", "measurements", "prior"),
+    "design_radii": ("radius", "scatter", "range", "cuts", "weight"),
+    "regime_map": ("coordinate", "range", "axis", "scale", "fixed", "map", "node", "limit"),
+    "propagate": ("uncertain quantities", "correlations", "standard error", "dimensionless"),
+    "read_measurements": ("file",),
+    "read_material": ("file",),
+    "plot_regime_map": ("map", "points", "limit", "width"),
+    "plot_identification": ("identification",),
+}
