@@ -262,7 +262,7 @@ def _hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
         for artist in artists:
             artist.set_edgecolor(_HATCH)
             artist.set_linewidth(0.0)
-        yield _patch("outside the model's domain", "white", hatch="////", ec=_HATCH)
+        yield _patch("outside the domain", "white", hatch="////", ec=_HATCH)
 
 
 def _draw_boundaries(

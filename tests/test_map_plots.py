@@ -88,8 +88,8 @@ def test_error_bars_are_those_of_a_product_of_powers():
 
 def test_outside_its_domain_a_model_is_hatched():
     ax = draw(gel(model="low-toughness"))
-    assert "outside the model's domain" in legend(ax)
-    assert "outside the model's domain" not in legend(draw(gel()))
+    assert "outside the domain" in legend(ax)
+    assert "outside the domain" not in legend(draw(gel()))
 
 
 def test_the_error_of_a_formula_has_a_bar_of_colours():
