@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.errors import WirecutError
-from surrogate.map_axes import MapAxis, Monomial
+from surrogate.map_axes import MapAxis
+from surrogate.map_scene import Monomial
 
 __all__ = ["Boundary", "contours", "curves", "exact_lines"]
 

@@ -66,6 +66,7 @@ def add_options(
     for option, metavar, default, words in (
         ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
+        ("--rtol", "ERROR", 0.02, "error that will do with --model auto (default 0.02)"),
     ):
         add(option, type=quantity(NUMBER), default=default, metavar=metavar, help=words)
     add("--nodes", type=int, default=201, metavar="N", help="nodes of each axis (default 201)")
@@ -144,6 +145,7 @@ def _map(options: argparse.Namespace) -> RegimeMap:
         (x_range, y_range),
         fixed,
         options.model,
+        rtol=options.rtol,
         scales=tuple("linear" if axis in options.linear else "log" for axis in "xy"),
         nodes=options.nodes,
         threshold=options.threshold,

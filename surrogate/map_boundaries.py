@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from surrogate.boundaries import Boundary, Lines, contours, exact_lines
 from surrogate.force import CuttingForce, cutting_force
 from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
-from surrogate.map_axes import MapAxis, Monomial
+from surrogate.map_axes import MapAxis
+from surrogate.map_scene import Monomial
 from surrogate.regimes import CONTACTS, SPLIT_MODEL, TOUCHING_TOUGHNESS, touching_toughness
 from surrogate.scene import Scene
 

@@ -2,42 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from surrogate.boundaries import Boundary
 from surrogate.errors import InputError
-from surrogate.figures import (
-    GREY,
-    MEDIUM,
-    SMALL,
-    figure_width,
-    legend_above,
-    new_axes,
-    new_figure,
-    picture_file,
-    save_figure,
-)
+from surrogate.figures import figure_width, new_axes, new_figure, picture_file, save_figure
 from surrogate.force_models import force_model
-from surrogate.label_places import GRID, best_place, blocked_by_line
-from surrogate.map_axes import MapAxis
-from surrogate.map_boundaries import formula_name
-from surrogate.map_points import MapPoints, places
-from surrogate.map_style import (
-    ERROR_COLOURS,
-    ERROR_LEVELS,
-    FILLS,
-    LIMIT_LINES,
-    LINES,
-    NAMES,
-    POINT_MARKERS,
-    SHOWN_UNITS,
-    axis_label,
+from surrogate.map_drawing import (
+    bars,
+    draw_boundaries,
+    draw_points,
+    fill_error,
+    fill_regions,
+    hatch_outside,
+    patch,
+    set_up,
 )
+from surrogate.map_labels import add_legend, name_regions
+from surrogate.map_points import MapPoints, places
+from surrogate.map_style import FILLS, LIMIT_LINES, NAMES, POINT_MARKERS
 from surrogate.maps import RegimeMap
 from surrogate.validation import shown
 
@@ -46,11 +30,8 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_regime_map", "save_regime_map"]
 
-Array = NDArray[np.float64]
-
 _HEIGHTS = {"single": 3.5, "double": 5.0}
 _COLUMNS = {"single": 2, "double": 3}
-_CONTACT, _HATCH = "#333333", "#909090"
 
 
 def plot_regime_map(
@@ -123,23 +104,23 @@ def plot_regime_map(
     located = [(one, *places(one, made)) for one in points]
     if ax is None:
         ax = new_axes(size)
-    _set_up(ax, made)
+    set_up(ax, made)
     if error_of is None:
-        _fill_regions(ax, made)
+        fill_regions(ax, made)
     else:
-        _fill_error(ax, made, error_of)
-    outside = list(_hatch_outside(ax, made))
+        fill_error(ax, made, error_of)
+    outside = list(hatch_outside(ax, made))
     handles, drawn = [], []
-    for line_handle, lines in _draw_boundaries(ax, made, wanted, contact):
+    for line_handle, lines in draw_boundaries(ax, made, wanted, contact):
         handles.append(line_handle)
         drawn += lines
     for i, (one, centre, error) in enumerate(located):
-        handles.append(_draw_points(ax, made, one, centre, error, POINT_MARKERS[i % 6]))
-        drawn += _bars(centre, error)
-    columns = _add_legend(ax, _COLUMNS[width], handles + outside)
-    if nameless := _name_regions(ax, made, drawn, error_of is not None):
-        regions = [_patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]
-        _add_legend(ax, columns, handles + outside + regions)
+        handles.append(draw_points(ax, made, one, centre, error, POINT_MARKERS[i % 6]))
+        drawn += bars(centre, error)
+    columns = add_legend(ax, _COLUMNS[width], handles + outside)
+    if nameless := name_regions(ax, made, drawn, error_of is not None):
+        regions = [patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]
+        add_legend(ax, columns, handles + outside + regions)
     return ax
 
 
@@ -202,244 +183,3 @@ def _checked(made: object, limits: Sequence[str], error_of: str | None) -> set[s
     if error_of is not None:
         force_model(error_of)
     return set(limits)
-
-
-def _set_up(ax: Axes, made: RegimeMap) -> None:
-    for axis, which in ((made.x, "x"), (made.y, "y")):
-        getattr(ax, f"set_{which}scale")(axis.scale)
-        getattr(ax, f"set_{which}lim")(*_shown(axis, axis.values[[0, -1]]))
-        getattr(ax, f"set_{which}label")(axis_label(axis), fontsize=MEDIUM)
-    ax.tick_params(which="both", labelsize=SMALL)
-    ax.set_facecolor(FILLS["transition"])
-
-
-def _shown(axis: MapAxis, values: Any) -> Any:
-    """Return values of an axis in the unit that figures show."""
-    return SHOWN_UNITS[axis.unit][0] * np.asarray(values)
-
-
-def _mesh(made: RegimeMap) -> tuple[Array, Array]:
-    return _shown(made.x, made.x.values), _shown(made.y, made.y.values)
-
-
-def _whole(made: RegimeMap, values: Any) -> Array:
-    shape = made.y.values.size, made.x.values.size
-    return np.array(np.broadcast_to(np.asarray(values, dtype=float), shape))
-
-
-def _fill_regions(ax: Axes, made: RegimeMap) -> None:
-    for name, share in made.term_shares.items():
-        values = _whole(made, share)
-        if np.any(values >= made.regime.threshold):
-            levels = [made.regime.threshold, 2.0]
-            ax.contourf(*_mesh(made), values, levels=levels, colors=[FILLS[name]], zorder=0)
-
-
-def _fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
-    error = 100.0 * np.abs(_whole(made, made.difference(model)))
-    filled = ax.contourf(
-        *_mesh(made),
-        np.where(np.isfinite(error), error, np.nan),
-        levels=ERROR_LEVELS,
-        colors=ERROR_COLOURS,
-        extend="max",
-        zorder=0,
-    )
-    bar = ax.figure.colorbar(filled, ax=ax, shrink=0.85, pad=0.02)
-    bar.set_label(f"error of {formula_name(model)} [%]", fontsize=MEDIUM)
-    bar.ax.tick_params(labelsize=SMALL)
-
-
-def _hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
-    """Hatch where the model does not hold; yield the handle for the legend."""
-    outside = 1.0 - _whole(made, made.force.in_domain)
-    if outside.any():
-        hatched: Any = ax.contourf(
-            *_mesh(made), outside, levels=[0.5, 2.0], colors="none", hatches=["////"], zorder=0.5
-        )
-        one_artist = hasattr(hatched, "set_edgecolor")  # since matplotlib 3.8
-        artists = [hatched] if one_artist else hatched.collections
-        for artist in artists:
-            artist.set_edgecolor(_HATCH)
-            artist.set_linewidth(0.0)
-        yield _patch("outside the domain", "white", hatch="////", ec=_HATCH)
-
-
-def _draw_boundaries(
-    ax: Axes, made: RegimeMap, limits: set[str], contact: bool
-) -> Iterator[tuple[Any, list[Array]]]:
-    """Draw the lines; yield one handle for the legend and the lines of each boundary."""
-    equal = 0
-    for one in made.boundaries:
-        style: dict[str, Any]
-        if one.kind == "dominance":
-            _lines(ax, made, one, color=GREY, lw=0.4)
-            continue
-        if one.kind == "equal-terms":
-            style = {"color": "black", "lw": 1.2, "ls": LINES[equal % len(LINES)]}
-            equal += 1
-        elif one.kind == "limit" and one.about[0] in limits:
-            colour, dashes = LIMIT_LINES[one.about[0]]
-            style = {"color": colour, "lw": 1.0, "ls": dashes}
-        elif one.kind == "contact" and contact:
-            style = {"color": _CONTACT, "lw": 0.8, "path_effects": [_ticks()]}
-        else:
-            continue
-        yield _lines(ax, made, one, **style), list(one.lines)
-
-
-def _lines(ax: Axes, made: RegimeMap, one: Boundary, **style: Any) -> Any:
-    handle = None
-    for line in one.lines:
-        if one.kind == "contact":
-            line = _with_indentation_left(made, line)
-        label = _legend_text(one) if handle is None else None
-        xy = _shown(made.x, line[:, 0]), _shown(made.y, line[:, 1])
-        (drawn,) = ax.plot(*xy, label=label, zorder=2, **style)
-        handle = handle or drawn
-    return handle
-
-
-def _legend_text(one: Boundary) -> str:
-    if one.kind == "limit":
-        return one.equation.replace("is off by", "off by")
-    if one.kind == "contact":
-        return f"${one.symbol}$, ticks: indentation"
-    return f"${one.symbol}$"
-
-
-def _ticks() -> Any:
-    from matplotlib.patheffects import TickedStroke
-
-    class _Ticks(TickedStroke):
-        """Ticks to the left of the line, and the line itself."""
-
-        def draw_path(self, renderer: Any, gc: Any, *args: Any) -> None:
-            super().draw_path(renderer, gc, *args)
-            renderer.draw_path(gc, *args)
-
-    return _Ticks(spacing=7.0, length=0.6, angle=90)
-
-
-def _with_indentation_left(made: RegimeMap, line: Array) -> Array:
-    """Return the line in the direction that has indentation, larger g, on its left side."""
-    middle = len(line) // 2
-    (x0, x1), (y0, y1) = (
-        axis.to_scale(line[middle - 1 : middle + 1, i]) for i, axis in enumerate((made.x, made.y))
-    )
-    left = np.array([-(y1 - y0), x1 - x0])  # of the direction along the line
-    g = (
-        made.quantities["toughness"]
-        * (made.quantities["shear_modulus"] * made.quantities["wire_radius"]) ** -1
-    )
-    rising = np.array([g.p, g.q])  # of ln g, by the signs along the axes
-    return line if left @ rising > 0.0 else line[::-1]
-
-
-def _draw_points(
-    ax: Axes, made: RegimeMap, points: MapPoints, centre: Array, error: Array, marker: str
-) -> Any:
-    x, y = _shown(made.x, centre[0]), _shown(made.y, centre[1])
-    bars = _shown(made.x, error[0]), _shown(made.y, error[1])
-    # a bar to below 0 has no end on a log scale
-    low = [np.minimum(bar, 0.999 * value) for bar, value in zip(bars, (x, y), strict=True)]
-    return ax.errorbar(
-        x,
-        y,
-        xerr=[low[0], bars[0]] if bars[0].any() else None,
-        yerr=[low[1], bars[1]] if bars[1].any() else None,
-        fmt=marker,
-        ms=4,
-        color="black",
-        mec="white",
-        mew=0.5,
-        capsize=2,
-        elinewidth=0.8,
-        zorder=4,
-        label=points.label,
-    )
-
-
-def _bars(centre: Array, error: Array) -> list[Array]:
-    """Return the bars of points as lines, a marker's own place included."""
-    low, high = np.maximum(centre - error, 1e-3 * centre), centre + error
-    horizontal = [
-        np.array([[a, y], [b, y]]) for a, b, y in zip(low[0], high[0], centre[1], strict=True)
-    ]
-    vertical = [
-        np.array([[x, a], [x, b]]) for x, a, b in zip(centre[0], low[1], high[1], strict=True)
-    ]
-    return horizontal + vertical
-
-
-def _add_legend(ax: Axes, columns: int, handles: list[Any]) -> int:
-    """Put a legend above the axes that is no wider than they are; return its columns."""
-    root = ax.figure.canvas.figure
-    if old := ax.get_legend():
-        old.remove()
-    root.draw_without_rendering()
-    room = 1.1 * ax.get_window_extent().width
-    for number in range(columns, 0, -1):
-        legend_above(ax, number, handles)
-        legend = ax.get_legend()
-        if legend is None or legend.get_window_extent().width <= room:
-            break
-    return number
-
-
-def _patch(label: str, colour: str, **style: Any) -> Any:
-    from matplotlib.patches import Patch
-
-    return Patch(fc=colour, lw=0.5, label=label, **{"ec": GREY, **style})
-
-
-def _name_regions(ax: Axes, made: RegimeMap, lines: Sequence[Array], coloured: bool) -> list[str]:
-    """Write each region's name where nothing is, upright where it fits only so.
-
-    Return the names of regions that are too small.
-    """
-    root = ax.figure.canvas.figure
-    root.draw_without_rendering()
-    window = ax.get_window_extent()
-    blocked = np.zeros((GRID, GRID), dtype=bool)
-    for line in lines:
-        blocked |= blocked_by_line(_fraction(made.x, line[:, 0]), _fraction(made.y, line[:, 1]))
-    centres = (np.arange(GRID) + 0.5) / GRID
-    columns, rows = (
-        np.rint(centres * (axis.values.size - 1)).astype(int) for axis in (made.x, made.y)
-    )
-    labels = np.broadcast_to(made.regime.dominant, (made.y.values.size, made.x.values.size))
-    region = labels[np.ix_(rows, columns)]
-    busy = coloured or not np.all(made.force.in_domain)
-    nameless = []
-    for name in np.unique(region):
-        text = ax.text(
-            0.5,
-            0.5,
-            NAMES[name],
-            transform=ax.transAxes,
-            ha="center",
-            va="center",
-            fontsize=SMALL,
-            style="italic" if name == "transition" else "normal",
-            zorder=3,
-            bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.0} if busy else None,
-        )
-        box = text.get_window_extent()
-        size = box.width / window.width, box.height / window.height
-        turned = box.height / window.width, box.width / window.height
-        free = (region == name) & ~blocked
-        if place := best_place(free, *size):
-            text.set_position(place)
-        elif place := best_place(free, *turned):
-            text.set_position(place)
-            text.set_rotation(90)
-        else:
-            text.remove()
-            nameless.append(str(name))
-    return nameless
-
-
-def _fraction(axis: MapAxis, values: Any) -> Array:
-    low, high = axis.to_scale(axis.values[[0, -1]])
-    return np.asarray((axis.to_scale(values) - low) / (high - low))

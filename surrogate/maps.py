@@ -15,8 +15,9 @@ from surrogate.boundaries import Boundary
 from surrogate.elementwise import ratio
 from surrogate.errors import InputError
 from surrogate.force import CuttingForce, cutting_force
-from surrogate.map_axes import MapAxis, Monomial, coordinate, map_axis, resolve
+from surrogate.map_axes import MapAxis, coordinate, map_axis
 from surrogate.map_boundaries import LIMITS, MapTerms, boundaries
+from surrogate.map_scene import Monomial, resolve
 from surrogate.regimes import DOMINANT_SHARE, Regime, classify, term_shares
 from surrogate.scene import NAMES, Scene, require_scene
 from surrogate.validation import SMALLEST, Quantity, one_number, shown

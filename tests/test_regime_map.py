@@ -16,7 +16,8 @@ from surrogate import (
     transition_radius,
 )
 from surrogate.boundaries import contours, exact_lines
-from surrogate.map_axes import COORDINATES, Monomial, map_axis
+from surrogate.map_axes import COORDINATES, map_axis
+from surrogate.map_scene import Monomial
 from surrogate.maps import regime_map
 from surrogate.regimes import DOMINANCES, PARTS, term_shares
 
@@ -189,7 +190,9 @@ def test_shares_add_up_and_know_their_terms():
     other = make("gel", model="low-toughness")
     assert tuple(other.term_shares) == PARTS[1:]
     np.testing.assert_array_equal(other.term_shares["wear"], other.wear_share)
-    np.testing.assert_allclose(sum(term_shares(made.scene, made.force, "eq13").values()), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(
+        sum(term_shares(made.scene, made.force, "eq13").values()), 1.0, rtol=1e-14
+    )
     np.testing.assert_allclose(
         made.relative_force, made.force.total / made.scene.toughness, rtol=1e-15
     )

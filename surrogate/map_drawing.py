@@ -1,0 +1,222 @@
+"""The artists of a regime map: fills, hatches, lines and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.boundaries import Boundary
+from surrogate.figures import GREY, MEDIUM, SMALL
+from surrogate.map_axes import MapAxis
+from surrogate.map_boundaries import formula_name
+from surrogate.map_points import MapPoints
+from surrogate.map_style import (
+    ERROR_COLOURS,
+    ERROR_LEVELS,
+    FILLS,
+    LIMIT_LINES,
+    LINES,
+    SHOWN_UNITS,
+    axis_label,
+)
+from surrogate.maps import RegimeMap
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = [
+    "bars",
+    "draw_boundaries",
+    "draw_points",
+    "fill_error",
+    "fill_regions",
+    "hatch_outside",
+    "patch",
+    "set_up",
+]
+
+Array = NDArray[np.float64]
+
+_CONTACT, _HATCH = "#333333", "#909090"
+
+
+def set_up(ax: Axes, made: RegimeMap) -> None:
+    """Give the axes the map's scales, limits and labels."""
+    for axis, which in ((made.x, "x"), (made.y, "y")):
+        getattr(ax, f"set_{which}scale")(axis.scale)
+        getattr(ax, f"set_{which}lim")(*_shown(axis, axis.values[[0, -1]]))
+        getattr(ax, f"set_{which}label")(axis_label(axis), fontsize=MEDIUM)
+    ax.tick_params(which="both", labelsize=SMALL)
+    ax.set_facecolor(FILLS["transition"])
+
+
+def _shown(axis: MapAxis, values: Any) -> Any:
+    """Return values of an axis in the unit that figures show."""
+    return SHOWN_UNITS[axis.unit][0] * np.asarray(values)
+
+
+def _mesh(made: RegimeMap) -> tuple[Array, Array]:
+    return _shown(made.x, made.x.values), _shown(made.y, made.y.values)
+
+
+def _whole(made: RegimeMap, values: Any) -> Array:
+    shape = made.y.values.size, made.x.values.size
+    return np.array(np.broadcast_to(np.asarray(values, dtype=float), shape))
+
+
+def fill_regions(ax: Axes, made: RegimeMap) -> None:
+    """Fill where a term dominates."""
+    for name, share in made.term_shares.items():
+        values = _whole(made, share)
+        if np.any(values >= made.regime.threshold):
+            levels = [made.regime.threshold, 2.0]
+            ax.contourf(*_mesh(made), values, levels=levels, colors=[FILLS[name]], zorder=0)
+
+
+def fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
+    """Colour the map by another model's error, with a bar of colours."""
+    error = 100.0 * np.abs(_whole(made, made.difference(model)))
+    filled = ax.contourf(
+        *_mesh(made),
+        np.where(np.isfinite(error), error, np.nan),
+        levels=ERROR_LEVELS,
+        colors=ERROR_COLOURS,
+        extend="max",
+        zorder=0,
+    )
+    bar = ax.figure.colorbar(filled, ax=ax, shrink=0.85, pad=0.02)
+    bar.set_label(f"error of {formula_name(model)} [%]", fontsize=MEDIUM)
+    bar.ax.tick_params(labelsize=SMALL)
+
+
+def hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
+    """Hatch where the model does not hold; yield the handle for the legend."""
+    outside = 1.0 - _whole(made, made.force.in_domain)
+    if outside.any():
+        hatched: Any = ax.contourf(
+            *_mesh(made), outside, levels=[0.5, 2.0], colors="none", hatches=["////"], zorder=0.5
+        )
+        one_artist = hasattr(hatched, "set_edgecolor")  # since matplotlib 3.8
+        artists = [hatched] if one_artist else hatched.collections
+        for artist in artists:
+            artist.set_edgecolor(_HATCH)
+            artist.set_linewidth(0.0)
+        yield patch("outside the domain", "white", hatch="////", ec=_HATCH)
+
+
+def draw_boundaries(
+    ax: Axes, made: RegimeMap, limits: set[str], contact: bool
+) -> Iterator[tuple[Any, list[Array]]]:
+    """Draw the lines; yield one handle for the legend and the lines of each boundary."""
+    equal = 0
+    for one in made.boundaries:
+        style: dict[str, Any]
+        if one.kind == "dominance":
+            _lines(ax, made, one, color=GREY, lw=0.4)
+            continue
+        if one.kind == "equal-terms":
+            style = {"color": "black", "lw": 1.2, "ls": LINES[equal % len(LINES)]}
+            equal += 1
+        elif one.kind == "limit" and one.about[0] in limits:
+            colour, dashes = LIMIT_LINES[one.about[0]]
+            style = {"color": colour, "lw": 1.0, "ls": dashes}
+        elif one.kind == "contact" and contact:
+            style = {"color": _CONTACT, "lw": 0.8, "path_effects": [_ticks()]}
+        else:
+            continue
+        yield _lines(ax, made, one, **style), list(one.lines)
+
+
+def _lines(ax: Axes, made: RegimeMap, one: Boundary, **style: Any) -> Any:
+    handle = None
+    for line in one.lines:
+        if one.kind == "contact":
+            line = _with_indentation_left(made, line)
+        label = _legend_text(one) if handle is None else None
+        xy = _shown(made.x, line[:, 0]), _shown(made.y, line[:, 1])
+        (drawn,) = ax.plot(*xy, label=label, zorder=2, **style)
+        handle = handle or drawn
+    return handle
+
+
+def _legend_text(one: Boundary) -> str:
+    if one.kind == "limit":
+        return one.equation.replace("is off by", "off by")
+    if one.kind == "contact":
+        return f"${one.symbol}$, ticks: indentation"
+    return f"${one.symbol}$"
+
+
+def _ticks() -> Any:
+    from matplotlib.patheffects import TickedStroke
+
+    class _Ticks(TickedStroke):
+        """Ticks to the left of the line, and the line itself."""
+
+        def draw_path(self, renderer: Any, gc: Any, *args: Any) -> None:
+            super().draw_path(renderer, gc, *args)
+            renderer.draw_path(gc, *args)
+
+    return _Ticks(spacing=7.0, length=0.6, angle=90)
+
+
+def _with_indentation_left(made: RegimeMap, line: Array) -> Array:
+    """Return the line in the direction that has indentation, larger g, on its left side."""
+    middle = len(line) // 2
+    (x0, x1), (y0, y1) = (
+        axis.to_scale(line[middle - 1 : middle + 1, i]) for i, axis in enumerate((made.x, made.y))
+    )
+    left = np.array([-(y1 - y0), x1 - x0])  # of the direction along the line
+    g = (
+        made.quantities["toughness"]
+        * (made.quantities["shear_modulus"] * made.quantities["wire_radius"]) ** -1
+    )
+    rising = np.array([g.p, g.q])  # of ln g, by the signs along the axes
+    return line if left @ rising > 0.0 else line[::-1]
+
+
+def draw_points(
+    ax: Axes, made: RegimeMap, points: MapPoints, centre: Array, error: Array, marker: str
+) -> Any:
+    """Draw points with bars of one standard error; return the handle for the legend."""
+    x, y = _shown(made.x, centre[0]), _shown(made.y, centre[1])
+    bars = _shown(made.x, error[0]), _shown(made.y, error[1])
+    # a bar to below 0 has no end on a log scale
+    low = [np.minimum(bar, 0.999 * value) for bar, value in zip(bars, (x, y), strict=True)]
+    return ax.errorbar(
+        x,
+        y,
+        xerr=[low[0], bars[0]] if bars[0].any() else None,
+        yerr=[low[1], bars[1]] if bars[1].any() else None,
+        fmt=marker,
+        ms=4,
+        color="black",
+        mec="white",
+        mew=0.5,
+        capsize=2,
+        elinewidth=0.8,
+        zorder=4,
+        label=points.label,
+    )
+
+
+def bars(centre: Array, error: Array) -> list[Array]:
+    """Return the bars of points as lines, a marker's own place included."""
+    low, high = np.maximum(centre - error, 1e-3 * centre), centre + error
+    horizontal = [
+        np.array([[a, y], [b, y]]) for a, b, y in zip(low[0], high[0], centre[1], strict=True)
+    ]
+    vertical = [
+        np.array([[x, a], [x, b]]) for x, a, b in zip(centre[0], low[1], high[1], strict=True)
+    ]
+    return horizontal + vertical
+
+
+def patch(label: str, colour: str, **style: Any) -> Any:
+    """Return a handle for the legend that stands for a region."""
+    from matplotlib.patches import Patch
+
+    return Patch(fc=colour, lw=0.5, label=label, **{"ec": GREY, **style})

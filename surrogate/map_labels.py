@@ -1,0 +1,89 @@
+"""The words of a regime map: its legend, and the names of its regions where nothing is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.figures import SMALL, legend_above
+from surrogate.label_places import GRID, best_place, blocked_by_line
+from surrogate.map_axes import MapAxis
+from surrogate.map_style import NAMES
+from surrogate.maps import RegimeMap
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["add_legend", "name_regions"]
+
+Array = NDArray[np.float64]
+
+
+def add_legend(ax: Axes, columns: int, handles: list[Any]) -> int:
+    """Put a legend above the axes that is no wider than they are; return its columns."""
+    root = ax.figure.canvas.figure
+    if old := ax.get_legend():
+        old.remove()
+    root.draw_without_rendering()
+    room = 1.1 * ax.get_window_extent().width
+    for number in range(columns, 0, -1):
+        legend_above(ax, number, handles)
+        legend = ax.get_legend()
+        if legend is None or legend.get_window_extent().width <= room:
+            break
+    return number
+
+
+def name_regions(ax: Axes, made: RegimeMap, lines: Sequence[Array], coloured: bool) -> list[str]:
+    """Write each region's name where nothing is, upright where it fits only so.
+
+    Return the names of regions that are too small.
+    """
+    root = ax.figure.canvas.figure
+    root.draw_without_rendering()
+    window = ax.get_window_extent()
+    blocked = np.zeros((GRID, GRID), dtype=bool)
+    for line in lines:
+        blocked |= blocked_by_line(_fraction(made.x, line[:, 0]), _fraction(made.y, line[:, 1]))
+    centres = (np.arange(GRID) + 0.5) / GRID
+    columns, rows = (
+        np.rint(centres * (axis.values.size - 1)).astype(int) for axis in (made.x, made.y)
+    )
+    labels = np.broadcast_to(made.regime.dominant, (made.y.values.size, made.x.values.size))
+    region = labels[np.ix_(rows, columns)]
+    busy = coloured or not np.all(made.force.in_domain)
+    nameless = []
+    for name in np.unique(region):
+        text = ax.text(
+            0.5,
+            0.5,
+            NAMES[name],
+            transform=ax.transAxes,
+            ha="center",
+            va="center",
+            fontsize=SMALL,
+            style="italic" if name == "transition" else "normal",
+            zorder=3,
+            bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.0} if busy else None,
+        )
+        box = text.get_window_extent()
+        size = box.width / window.width, box.height / window.height
+        turned = box.height / window.width, box.width / window.height
+        free = (region == name) & ~blocked
+        if place := best_place(free, *size):
+            text.set_position(place)
+        elif place := best_place(free, *turned):
+            text.set_position(place)
+            text.set_rotation(90)
+        else:
+            text.remove()
+            nameless.append(str(name))
+    return nameless
+
+
+def _fraction(axis: MapAxis, values: Any) -> Array:
+    low, high = axis.to_scale(axis.values[[0, -1]])
+    return np.asarray((axis.to_scale(values) - low) / (high - low))
