@@ -283,6 +283,7 @@ def _add_identify_options(command: argparse.ArgumentParser) -> None:
     )
     cli_identify.add_fact_options(command, _quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
+    add("--csv", metavar="TABLE", help="write the fitted line and its band")
 
 
 def _scene(options: argparse.Namespace) -> Scene:
@@ -353,6 +354,10 @@ def _identify(options: argparse.Namespace) -> None:
             pure_shear_toughness=material.pure_shear_toughness,
             force_label=origin,
         )
+    if options.csv:
+        from surrogate.curves import write_curve
+
+        write_curve(fit, options.csv)
     record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
     record |= report.identification_record(fit, material)
     _print(options, record, report.identification_text)

@@ -116,6 +116,12 @@ class Identification:
         """What the forces do not decide, and which further wire would, in words."""
         return tuple(undecided(self))
 
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_identification
+
+        return html_of_identification(self)
+
     @property
     def cuts(self) -> Cuts:
         """The measurements and what was given of the material."""

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from surrogate import Scene, classify, cutting_force, regime_map
+from surrogate import Scene, classify, cutting_force, identify, regime_map
 from surrogate.notebook import html_table
 
 GEL = Scene(685.0, 1.6, [1e-5, 2e-4], wear_strength=7750.0)
@@ -44,6 +44,17 @@ def test_arrays_without_numbers():
     infinite = cutting_force(Scene(1.0, [1e308, 1e308], 1.0, 10.0))
     rows = {name: value for name, value, _ in cells(infinite._repr_html_())}
     assert rows["total"] == "2 values, none finite"
+
+
+def test_an_identification_with_its_intervals_and_warnings():
+    fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    rows = cells(fit._repr_html_())
+    assert rows[1][0] == "cleavage toughness"
+    assert rows[1][1].startswith("1.625 (95 %: ")
+    assert [text for name, text, _ in rows if name == "warning"] == list(fit.warnings)
+    assert len(fit.warnings) > 0
+    bounded = identify([1e-4, 2e-4], [4.7, 7.9], 685.0, toughness_max=5.0)
+    assert "undecided" in [row[0] for row in cells(bounded._repr_html_())] or not bounded.undecided
 
 
 def test_markup_in_values_is_escaped():
