@@ -404,25 +404,35 @@ def load_campaign(path: str | os.PathLike[str] | None = None) -> Campaign:
 
     file = Path(file_name(path)) if path is not None else model_file("campaign.h5")
     _verify(file)
-    with h5py.File(file, "r") as content:
-        schema = content.attrs.get("schema")
-        if schema != SCHEMA:
-            raise InputError(
-                f"{file} has the schema {schema!r}, but {SCHEMA!r} is read here; make it anew with "
-                "regen-surrogate, or take the version of wirecut that made it."
-            )
-        attributes = {name: str(value) for name, value in content.attrs.items()}
-        tables = [_read_table(content[name]) for name in ("rows", "points")]
-    design = CampaignDesign.from_dict(json.loads(attributes.pop("design")))
-    software = tuple(MappingProxyType(one) for one in json.loads(attributes.pop("software")))
+    try:
+        with h5py.File(file, "r") as content:
+            _require_schema(file, content.attrs.get("schema"))
+            attributes = {name: str(value) for name, value in content.attrs.items()}
+            tables = [_read_table(content[name]) for name in ("rows", "points")]
+        design = CampaignDesign.from_dict(json.loads(attributes.pop("design")))
+        software = tuple(MappingProxyType(one) for one in json.loads(attributes.pop("software")))
+    except InputError:
+        raise
+    except (OSError, LookupError, ValueError, TypeError, RuntimeError, AttributeError) as error:
+        raise InputError(
+            f"{file} is no data set of a campaign ({error}); make it anew with regen-surrogate."
+        ) from None
     return Campaign(tables[0], tables[1], design, MappingProxyType(attributes), software)
+
+
+def _require_schema(file: Path, schema: object) -> None:
+    if schema != SCHEMA:
+        raise InputError(
+            f"{file} has the schema {schema!r}, but {SCHEMA!r} is read here; make it anew with "
+            "regen-surrogate, or take the version of wirecut that made it."
+        )
 
 
 def _verify(file: Path) -> None:
     beside = _checksum_file(file)
     try:
-        checksum = hashlib.sha256(file.read_bytes()).hexdigest()
-        expected = beside.read_text(encoding="utf-8").split()[:1]
+        checksum = hashlib.sha256(file.read_bytes()).hexdigest().encode()
+        expected = beside.read_bytes().split()[:1]
     except OSError as error:
         raise InputError(
             f"{error.filename} cannot be read ({error.strerror}); a data set is two files, made by "

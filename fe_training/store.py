@@ -13,7 +13,6 @@ import json
 import logging
 import os
 import socket
-import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, fields
@@ -21,6 +20,8 @@ from pathlib import Path
 from typing import Any, get_origin, get_type_hints
 
 import numpy as np
+
+from surrogate.archive import read_archive
 
 from .design import CampaignDesign, Configuration
 from .errors import InputError
@@ -178,12 +179,25 @@ class Store:
         except FileNotFoundError:
             return None
         except DamagedRowError as error:
-            aside = self.folder / "damaged" / path.name
+            self._set_aside(path, error)
+            return None
+        except OSError as error:
+            raise InputError(
+                f"{path} cannot be read ({error.strerror}); see that the store can be read."
+            ) from None
+
+    def _set_aside(self, path: Path, damage: DamagedRowError) -> None:
+        aside = self.folder / "damaged" / path.name
+        try:
             aside.parent.mkdir(exist_ok=True)
             with suppress(FileNotFoundError):  # another reader was quicker
                 os.replace(path, aside)
-            _log.warning("%s is damaged (%s); moved to %s", path.name, error, aside.parent)
-            return None
+        except OSError as error:
+            raise InputError(
+                f"{path} is damaged ({damage}) and cannot be set aside ({error.strerror}); "
+                "move it away."
+            ) from None
+        _log.warning("%s is damaged (%s); moved to %s", path.name, damage, aside.parent)
 
     def rows(self, configurations: Iterable[Configuration]) -> list[Row]:
         """Return the rows of those configurations that are finished."""
@@ -232,8 +246,7 @@ def decode_row(content: bytes) -> Row:
     if checksum != hashlib.sha256(payload).hexdigest().encode():
         raise DamagedRowError("its checksum does not match")
     try:
-        with np.load(io.BytesIO(payload), allow_pickle=False) as archive:
-            columns = dict(archive.items())
+        columns = read_archive(payload)
         configuration = Configuration(
             str(columns["level"]), float(columns["alpha"]), float(columns["target"])
         )
@@ -249,7 +262,7 @@ def decode_row(content: bytes) -> Row:
             json.loads(str(columns["software"])),
             Record(**values),
         )
-    except (KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+    except (KeyError, ValueError, TypeError, AttributeError, OverflowError) as error:
         raise DamagedRowError(f"it cannot be decoded: {error}") from None
 
 
@@ -300,26 +313,40 @@ def write_atomically(path: Path, content: bytes) -> None:
 @contextmanager
 def _locked(path: Path, store: Path) -> Iterator[None]:
     """Hold the lock of a store; where there is no flock, a file that must not exist beforehand."""
-    if fcntl is None:
-        try:
-            descriptor = os.open(path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o644)
-        except FileExistsError:
-            raise _busy(path, store, "; if no such process runs, delete that file") from None
-    else:
-        descriptor = os.open(path, os.O_CREAT | os.O_RDWR, 0o644)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(descriptor)
-            raise _busy(path, store, "") from None
     try:
-        os.truncate(descriptor, 0)
-        os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode())
+        descriptor = _lock(path, store)
+    except OSError as error:
+        raise InputError(
+            f"the store {store} cannot be locked ({error.strerror}: {path}); see that it can be "
+            "written, or choose another --store."
+        ) from None
+    try:
+        with suppress(OSError):  # who holds it is said for people; a full disk is met later
+            os.truncate(descriptor, 0)
+            os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode())
         yield
     finally:
         os.close(descriptor)
         if fcntl is None:
             path.unlink(missing_ok=True)
+
+
+def _lock(path: Path, store: Path) -> int:
+    """Return the descriptor of a file that no other process holds."""
+    if fcntl is None:
+        try:
+            return os.open(path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o644)
+        except FileExistsError:
+            raise _busy(path, store, "; if no such process runs, delete that file") from None
+    descriptor = os.open(path, os.O_CREAT | os.O_RDWR, 0o644)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        os.close(descriptor)
+        if isinstance(error, BlockingIOError):
+            raise _busy(path, store, "") from None
+        raise
+    return descriptor
 
 
 def _busy(path: Path, store: Path, remedy: str) -> InputError:
