@@ -121,6 +121,8 @@ class CampaignDesign:
         From this g on, the configurations of one alpha and level are solved along one path [-].
     levels : dict of str to Settings
         The two meshes, the coarser one first.
+    nodes : tuple of tuple of float, optional
+        The nodes in g of each alpha, rising, where they are given one by one.
     """
 
     alpha: tuple[float, ...]
@@ -130,6 +132,7 @@ class CampaignDesign:
     denser: Denser
     path_from: float
     levels: Mapping[str, Settings]
+    nodes: tuple[tuple[float, ...], ...] | None = None
 
     @property
     def hash(self) -> str:
@@ -140,11 +143,10 @@ class CampaignDesign:
     def as_dict(self) -> dict[str, Any]:
         """Return all numbers, defaults of the settings included, as plain dictionaries."""
         levels = [[name, asdict(settings)] for name, settings in self.levels.items()]
-        return {
-            **{field.name: getattr(self, field.name) for field in fields(self)},
-            "denser": asdict(self.denser),
-            "levels": levels,
-        }
+        numbers = {field.name: getattr(self, field.name) for field in fields(self)}
+        if self.nodes is None:
+            del numbers["nodes"]  # as if there were no such field, for the hash
+        return {**numbers, "denser": asdict(self.denser), "levels": levels}
 
     @classmethod
     def from_dict(cls, numbers: Mapping[str, Any]) -> CampaignDesign:
@@ -152,10 +154,14 @@ class CampaignDesign:
         denser = {name: _plain(value) for name, value in numbers["denser"].items()}
         levels = {name: Settings(**values) for name, values in numbers["levels"]}
         rest = {name: _plain(value) for name, value in numbers.items()}
+        if "nodes" in numbers:
+            rest["nodes"] = tuple(map(tuple, numbers["nodes"]))
         return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
 
     def g(self, alpha: float) -> tuple[float, ...]:
-        """Return the nodes in g of one alpha, rising, rounded to four digits."""
+        """Return the nodes in g of one alpha, rising, rounded to four digits where computed."""
+        if self.nodes is not None:
+            return self.nodes[self.alpha.index(alpha)]
         fine = np.linspace(np.log10(self.lowest), np.log10(self.highest), 4001)
         density = self.denser.density(alpha, fine)
         share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
@@ -280,6 +286,14 @@ class _Table:
             raise InputError(f"{name} is {values!r}, which does not rise; give {what}.")
         return checked
 
+    def lists(self, key: str, lower: float, upper: float) -> tuple[tuple[float, ...], ...]:
+        values = self._take(key, list, "a list of lists of numbers")
+        within = _Table(f"{self.name}{key} ", {str(i): v for i, v in enumerate(values)})
+        return tuple(within.numbers(str(i), lower, upper, True) for i in range(len(values)))
+
+    def has(self, key: str) -> bool:
+        return key in self._left
+
     def text(self, key: str, expected: str) -> None:
         if self._take(key, str, repr(expected)) != expected:
             raise InputError(f"{self.name}{key} is not {expected!r}; no other is known.")
@@ -303,6 +317,8 @@ def _checked(table: _Table) -> CampaignDesign:
     path_from = table.number("path_from", 0.0, math.inf)
     g, levels = table.table("g"), table.table("levels")
     table.end()
+    if g.has("nodes"):
+        return _listed(alpha, path_from, g, _levels(levels))
     lowest = g.number("lowest", *G_RANGE)
     highest = g.number("highest", *G_RANGE)
     if highest <= lowest:
@@ -329,6 +345,22 @@ def _checked(table: _Table) -> CampaignDesign:
                 "digits; give fewer."
             )
     return design
+
+
+def _listed(
+    alpha: tuple[float, ...], path_from: float, g: _Table, levels: dict[str, Settings]
+) -> CampaignDesign:
+    """Return the design whose nodes in g are given one by one for each alpha."""
+    nodes = g.lists("nodes", *G_RANGE)
+    g.end()
+    if len(nodes) != len(alpha):
+        raise InputError(
+            f"g.nodes has {len(nodes)} lists and alpha {len(alpha)} values; give one for each."
+        )
+    every = [node for each in nodes for node in each]
+    nowhere = Denser((2.0,), (1.0,), 0.0, 1.0)
+    count = max(map(len, nodes))
+    return CampaignDesign(alpha, min(every), max(every), count, nowhere, path_from, levels, nodes)
 
 
 def _levels(table: _Table) -> dict[str, Settings]:

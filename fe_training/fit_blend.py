@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,9 @@ _HIGH = 10.0
 _GAP_FLOOR = 2e-3  # below this, delta - 1 is not what delta is to be judged by
 
 
-def fit_blend(points: FitPoints, touch: Touch) -> dict[str, tuple[float, ...]]:
+def fit_blend(
+    points: FitPoints, touch: Touch, start: Mapping[str, tuple[float, ...]] | None = None
+) -> dict[str, tuple[float, ...]]:
     """Return the constants of `surrogate.blended.BlendModel`.
 
     The largest relative errors of A and B and of delta - 1 are made small, not their squares.
@@ -42,6 +44,8 @@ def fit_blend(points: FitPoints, touch: Touch) -> dict[str, tuple[float, ...]]:
         What was computed.
     touch : Touch
         g_touch(alpha).
+    start : mapping of str to tuple of float, optional
+        Constants of an earlier fit, from which less is left to do.
 
     Returns
     -------
@@ -63,23 +67,26 @@ def fit_blend(points: FitPoints, touch: Touch) -> dict[str, tuple[float, ...]]:
         "normal_load": lambda b: np.log(load_formula(b, log_g, y)[0]) - log_load,
         "distance": distance_misfit,
     }
-    return {name: _fitted(misfit, _START[name]) for name, misfit in misfits.items()}
+    if start is not None:
+        return {name: _fitted(misfit, start[name], (_NORM,)) for name, misfit in misfits.items()}
+    norms = (2, 4, 8, _NORM)
+    return {name: _fitted(misfit, _START[name], norms) for name, misfit in misfits.items()}
 
 
-def _fitted(misfit: Callable[[Floats], Floats], start: tuple[float, ...]) -> tuple[float, ...]:
-    def finite(constants: Floats) -> Floats:
+def _fitted(
+    misfit: Callable[[Floats], Floats], start: tuple[float, ...], norms: tuple[int, ...]
+) -> tuple[float, ...]:
+    """Return the constants that make a misfit small, in one norm after the other."""
+
+    def raised(at: Floats, norm: int) -> Floats:
         with np.errstate(all="ignore"):
-            return np.nan_to_num(misfit(constants), nan=1e3, posinf=1e3, neginf=-1e3)
+            error = np.nan_to_num(misfit(at), nan=1e3, posinf=1e3, neginf=-1e3)
+        scaled = np.minimum(np.abs(error) / _UNIT, 1e3) ** (0.5 * norm)
+        return np.asarray(np.sign(error) * scaled)
 
-    constants = least_squares(finite, start, max_nfev=2000).x
-    for norm in (4, 8, _NORM):
-
-        def raised(at: Floats, norm: int = norm) -> Floats:
-            error = finite(at)
-            scaled = np.abs(error) / _UNIT
-            return np.asarray(np.sign(error) * np.minimum(scaled, 1e3) ** (norm / 2))
-
-        constants = least_squares(raised, constants, max_nfev=2000).x
+    constants = np.array(start)
+    for norm in norms:
+        constants = least_squares(raised, constants, max_nfev=500, args=(norm,)).x
     return tuple(map(float, constants))
 
 

@@ -19,7 +19,7 @@ from surrogate.gaussian_process import GaussianProcess
 from surrogate.quantities import QUANTITIES, coordinates
 from surrogate.touch import log_touch
 
-from .fit_gp import leave_out_errors
+from .fit_gp import leave_out_errors, rows_of
 from .fit_points import FitPoints
 from .fit_touch import Touch
 
@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 ALPHA_EDGES = (2.0, 3.0, 5.0, 9.0)
 G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0)
-SAFETY = 1.5
+SAFETY = 2.0
 """How many times the largest error of a few dozen points of a cell the largest of all may be."""
 
 _GRID = 24  # points of a cell along each direction
@@ -124,7 +124,7 @@ def left_out_errors(
     """
     found = {}
     for name, process in processes.items():
-        rows = _rows_of(process, points)
+        rows = rows_of(process, points)
         alone = np.abs(leave_out_errors(process, np.arange(len(rows)))[0])
         alpha = points.alpha[rows]
         group = np.abs(leave_out_errors(process, alpha)[0])
@@ -142,14 +142,6 @@ def left_out_errors(
             full[rows] = error
             found[name] = full
     return found
-
-
-def _rows_of(process: GaussianProcess, points: FitPoints) -> NDArray[np.intp]:
-    """Return which of the points a process has, in the order that it has them."""
-    where = {
-        pair: i for i, pair in enumerate(zip(np.log(points.g), np.log(points.alpha), strict=True))
-    }
-    return np.array([where[g, alpha] for g, alpha in process.inputs[:, :2]], dtype=np.intp)
 
 
 def _edges(wanted: tuple[float, ...], values: Floats) -> tuple[float, ...]:

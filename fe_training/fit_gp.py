@@ -18,7 +18,14 @@ from surrogate.wedge import wedge_functions, wedge_load
 from .fit_points import FitPoints
 from .fit_touch import Touch
 
-__all__ = ["Hyperparameters", "fit_processes", "process_with", "transformed"]
+__all__ = [
+    "Hyperparameters",
+    "fit_processes",
+    "leave_out_errors",
+    "process_with",
+    "rows_of",
+    "transformed",
+]
 
 Floats = NDArray[np.float64]
 
@@ -191,3 +198,10 @@ def leave_out_errors(process: GaussianProcess, groups: NDArray[Any]) -> tuple[Fl
         error[rows] = -block @ weights[rows]
         std[rows] = np.sqrt(np.diag(block))
     return error, std
+
+
+def rows_of(process: GaussianProcess, points: FitPoints) -> NDArray[np.intp]:
+    """Return which of the points a process has, in the order that it has them."""
+    pairs = zip(np.log(points.g), np.log(points.alpha), strict=True)
+    row = {pair: i for i, pair in enumerate(pairs)}
+    return np.array([row[g, alpha] for g, alpha in process.inputs[:, :2]], dtype=np.intp)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from surrogate.cell_table import CellTable, Grid
 from surrogate.process_model import ProcessModel
@@ -15,7 +14,7 @@ __all__ = ["fit_table"]
 
 Floats = NDArray[np.float64]
 
-SHORT, PAST, STIFFENING = 30, 18, 12
+SHORT, PAST, STIFFENING = 36, 24, 60
 
 
 def fit_table(
@@ -52,20 +51,5 @@ def fit_table(
 
 
 def _sides(grid: Grid, values: Floats) -> tuple[Floats, Floats]:
-    sides = values[: grid.short + 1], values[grid.short :]
-    # single precision halves the file; nodes that cells share stay shared
-    short, past = (_nodes(side).astype(np.float32).astype(float) for side in sides)
-    past[0, :, 0::2] = short[-1, :, 0::2]  # value and slope along alpha are those of both sides
-    return short, past
-
-
-def _nodes(values: Floats) -> Floats:
-    """Return value, slope along g, slope along alpha and mixed slope of a spline, per cell."""
-
-    def slopes(of: Floats, axis: int) -> Floats:
-        return np.asarray(
-            CubicSpline(np.arange(of.shape[axis]), of, axis=axis)(np.arange(of.shape[axis]), 1)
-        )
-
-    along_g, along_alpha = slopes(values, 0), slopes(values, 1)
-    return np.stack([values, along_g, along_alpha, slopes(along_g, 1)], axis=-1)
+    single = values.astype(np.float32).astype(float)  # which halves the file
+    return single[: grid.short + 1], single[grid.short :]

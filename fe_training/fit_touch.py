@@ -98,7 +98,7 @@ def _polynomial(x: Floats, y: Floats, std: Floats, all_x: Floats) -> tuple[float
     slope = (y[-1] - y[-2]) / (x[-1] - x[-2])
     there = np.append(x, left), np.append(y, y[-1] + slope * (left - x[-1]))
     weight = 1.0 / np.append(std, np.full(len(left), _GUESS_ERROR))
-    degree = min(_LARGEST_DEGREE, len(there[0]) - 1, max(1, len(x) // 2))
+    degree = min(_LARGEST_DEGREE, max(1, len(x) - 1), len(there[0]) - 1)
     return tuple(map(float, np.polynomial.polynomial.polyfit(*there, degree, w=weight)))
 
 

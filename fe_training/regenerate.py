@@ -24,9 +24,9 @@ __all__ = ["main"]
 
 _NAME = "regen-surrogate"
 #: Packages of the extra `train`.
-_EXTRA = {"scipy", "skfem", "joblib", "h5py", "tqdm", "threadpoolctl", "tomli"}
-_FULL, _QUICK = "campaign.toml", "campaign-quick.toml"
-_DATA = "campaign.h5"
+_EXTRA = {"scipy", "sklearn", "skfem", "joblib", "h5py", "tqdm", "threadpoolctl", "tomli"}
+_FULL, _QUICK, _OFF_GRID = "campaign.toml", "campaign-quick.toml", "off-grid.toml"
+_DATA, _OFF_GRID_DATA = "campaign.h5", "off-grid.h5"
 _CHECKED_ROWS = 5
 
 _DESCRIPTION = """\
@@ -53,6 +53,10 @@ examples:
       the data set of the rows that are finished
   regen-surrogate --continue-from models/campaign.h5 --jobs 2
       go on with an unfinished data set where its store is gone, on another machine say
+  regen-surrogate --off-grid --jobs 2
+      solutions that no fit has seen, for the validation: models/off-grid.h5
+  regen-surrogate --fit-only
+      fit and validate the models from the data sets in --out, and write their file and their card
   regen-surrogate --check 10
       solve ten rows of the shipped data again and compare
 
@@ -96,6 +100,11 @@ def _parser() -> argparse.ArgumentParser:
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--quick", action="store_true", help=f"take the design models/{_QUICK}")
     what.add_argument("--design", metavar="FILE", help=f"take another design than models/{_FULL}")
+    what.add_argument(
+        "--off-grid",
+        action="store_true",
+        help=f"solve models/{_OFF_GRID} into {_OFF_GRID_DATA}, for the validation; fit nothing",
+    )
     add(
         "--only",
         action="append",
@@ -106,6 +115,7 @@ def _parser() -> argparse.ArgumentParser:
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--dry-run", action="store_true", help="say what would run, solve nothing")
     how.add_argument("--no-solve", action="store_true", help="make the files of the finished rows")
+    how.add_argument("--fit-only", action="store_true", help="fit the data set in --out")
     how.add_argument(
         "--check",
         nargs="?",
@@ -114,6 +124,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         help=f"solve N rows of the data set in --out again and compare ({_CHECKED_ROWS})",
     )
+    add("--single-mesh", action="store_true", help="fit points of one mesh too, to try it out")
     add("--no-retry", action="store_true", help="leave failed rows as they are")
     add("--jobs", type=_count, default=1, metavar="N", help="processes on this machine (1)")
     add("--backend", choices=("local", "dask"), default="local", help="where to solve (local)")
@@ -144,12 +155,16 @@ def _regenerate(options: argparse.Namespace) -> int:
     from .store import Store
 
     workers = Workers(options.jobs, options.scheduler)
-    name = "campaign-quick" if options.quick else "campaign"
+    name = "campaign-quick" if options.quick else "off-grid" if options.off_grid else "campaign"
     store = Store(options.store or Path("output") / name)
     out = Path(options.out or (store.folder / "models" if options.quick else models_folder()))
     if options.check:
         return _check(out / _DATA, options.check, options.seed, workers)
-    design = read_design(options.design or model_file(_QUICK if options.quick else _FULL))
+    if options.fit_only:
+        _fit_only(out, options.single_mesh)
+        return 0
+    file = _QUICK if options.quick else _OFF_GRID if options.off_grid else _FULL
+    design = read_design(options.design or model_file(file))
     chosen = _chosen(design, options.only)
     if options.dry_run:
         _say_plan(design, plan(design, store, chosen, not options.no_retry), workers)
@@ -159,9 +174,10 @@ def _regenerate(options: argparse.Namespace) -> int:
             _refill(design, store, options.continue_from)
         if not options.no_solve:
             _campaign(design, store, chosen, workers, not options.no_retry)
-        data = _data_set(design, store, out)
-    _fit()
-    _validation(data)
+        data = _data_set(design, store, out / (_OFF_GRID_DATA if options.off_grid else _DATA))
+    _say_points(data)
+    if not options.off_grid:
+        _fit(data, out, options.single_mesh)
     return 0
 
 
@@ -223,35 +239,57 @@ def _campaign(
         _say(f"    {what}; run again to try them with a finer mesh")
 
 
-def _data_set(design: CampaignDesign, store: Store, out: Path) -> Campaign:
+def _data_set(design: CampaignDesign, store: Store, file: Path) -> Campaign:
     from .dataset import load_campaign, write_campaign
 
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(
-            f"{out} cannot be made ({error.strerror}); choose another --out."
+            f"{file.parent} cannot be made ({error.strerror}); choose another --out."
         ) from None
     rows = store.rows(design.configurations())
-    file = write_campaign(out / _DATA, design, rows)
+    write_campaign(file, design, rows)
     size = file.stat().st_size / 1e6
     _say(f"2/4 data set: {file}, {len(rows)} rows, {size:.2f} MB, checksum beside it")
     return load_campaign(file)
 
 
-def _fit() -> None:
-    _say("3/4 fit: not part of this version; the force models stay the paper's closed forms")
-
-
-def _validation(data: Campaign) -> None:
+def _say_points(data: Campaign) -> None:
     """Say how many points may be used, and why the others may not."""
     points = data.points
     use = points["use"].astype(bool)
     wanted = len(data.design.configurations()) // len(data.design.levels)
-    _say(f"4/4 validation: {use.sum()} of {wanted} points within the bounds of their evidence")
+    _say(f"    {use.sum()} of {wanted} points within the bounds of their evidence")
     left_out = zip(points["alpha"][~use], points["g"][~use], points["reason"][~use], strict=True)
     for alpha, g, reason in left_out:
         _say(f"    alpha = {alpha:g}, g = {g:g}: {reason}")
+
+
+def _fit(data: Campaign, out: Path, single_mesh: bool) -> None:
+    """Fit, validate and write the models, or say why they cannot be made yet."""
+    try:
+        _make(data, out, single_mesh)
+    except InputError as error:
+        _say(f"3/4 fit: not made, as {error}")
+        _say("4/4 validation: there is nothing to validate")
+
+
+def _fit_only(out: Path, single_mesh: bool) -> None:
+    from .dataset import load_campaign
+
+    _make(load_campaign(out / _DATA), out, single_mesh)
+
+
+def _make(data: Campaign, out: Path, single_mesh: bool) -> None:
+    from .dataset import load_campaign
+    from .surrogates import make_surrogates
+
+    others = out / _OFF_GRID_DATA
+    if not others.is_file():
+        _say(f"    {others} is not there, so that no point off the grid is in the validation")
+    off_grid = load_campaign(others) if others.is_file() else None
+    make_surrogates(data, out, off_grid, single_mesh, _say)
 
 
 def _say_plan(design: CampaignDesign, todo: Plan, workers: Workers) -> None:

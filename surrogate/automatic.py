@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from surrogate.choice import Chosen, available, bounded, choose_contact, choose_terms
 from surrogate.elementwise import product, quotient
 from surrogate.errors import AccuracyError
+from surrogate.fitted import Fitted
 from surrogate.force_models import FORCE_MODELS, ForceModel
 from surrogate.inside import require_inside
 from surrogate.validation import FloatOrArray, common_shape
@@ -28,6 +29,7 @@ def automatic_terms(
     rtol: object,
     extrapolate: bool,
     of_dissipation: bool = False,
+    fitted: Fitted | None = None,
 ) -> Any:
     """Return friction, wear, where in the domain, model and bound of each point.
 
@@ -44,6 +46,8 @@ def automatic_terms(
         Whether points outside the domain are continued by the table; their bound is nan.
     of_dissipation : bool
         Whether `rtol` is relative to friction and wear alone, without the cleavage.
+    fitted : Fitted, optional
+        The models to choose among; the shipped ones by default.
 
     Raises
     ------
@@ -61,11 +65,11 @@ def automatic_terms(
         free = FORCE_MODELS["eq13"].terms(mu, gamma, radius, xi, wear, alpha)
     friction, worn = (np.array(term, dtype=float) for term in np.broadcast_arrays(*free))
     matters = (friction > 0.0) | (worn > 0.0)
-    models, _ = available()
+    models, _ = available(fitted)
     if not extrapolate:
         require_inside(models[1], values)
     chosen = choose_terms(
-        g, alpha, (0.0 * gamma if of_dissipation else gamma, worn, friction), rtol
+        g, alpha, (0.0 * gamma if of_dissipation else gamma, worn, friction), rtol, fitted
     )
     inside = chosen.inside | ~matters
     for code, model in enumerate(chosen.models[1:], start=1):

@@ -15,7 +15,7 @@ import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -126,10 +126,9 @@ class CellTable:
     ----------
     grid : Grid
         The cells.
-    nodes : mapping of str to tuple of ndarray, shape (nodes along g, nodes along alpha, 4)
-        For each function value, slope along g, slope along alpha and mixed slope at the nodes on
-        either side of the touch, per cell. The touch is the last node of the first array and the
-        first of the second.
+    nodes : mapping of str to tuple of ndarray, shape (nodes along g, nodes along alpha)
+        For each function its values at the nodes on either side of the touch, which is the last
+        node of the first array and the first of the second. The slopes are those of cubic splines.
     """
 
     grid: Grid
@@ -231,18 +230,31 @@ def _cell(place: Any, cells: int) -> tuple[Any, Any]:
     return cell, place - cell
 
 
-def _coefficients(nodes: Array) -> Array:
+def _coefficients(values: Array) -> Array:
     """Return the coefficients (cells, cells, 4, 4) of powers along g and along alpha."""
-    corners = nodes.reshape(*nodes.shape[:2], 2, 2)  # slope along alpha, then along g
-    ends = np.empty((nodes.shape[0] - 1, nodes.shape[1] - 1, 4, 4))
-    for slope_g in (0, 1):
-        for end_g in (0, 1):
-            for slope_alpha in (0, 1):
-                for end_alpha in (0, 1):
-                    ends[:, :, 2 * slope_g + end_g, 2 * slope_alpha + end_alpha] = corners[
-                        end_g : nodes.shape[0] - 1 + end_g,
-                        end_alpha : nodes.shape[1] - 1 + end_alpha,
-                        slope_alpha,
-                        slope_g,
-                    ]
+    by_g, by_alpha = _slopes(values.shape[0]), _slopes(values.shape[1])
+    along_g, along_alpha = by_g @ values, values @ by_alpha.T
+    mixed = along_g @ by_alpha.T
+    ends = np.empty((values.shape[0] - 1, values.shape[1] - 1, 4, 4))
+    for i, row in enumerate(((values, along_alpha), (along_g, mixed))):
+        for j, nodes in enumerate(row):
+            for end in (0, 1):
+                for other in (0, 1):
+                    rows, columns = ends.shape[0] + end, ends.shape[1] + other
+                    ends[:, :, 2 * i + end, 2 * j + other] = nodes[end:rows, other:columns]
     return np.asarray(np.einsum("ai,xyij,bj->xyab", _HERMITE, ends, _HERMITE))
+
+
+@cache
+def _slopes(nodes: int) -> Array:
+    """Return the matrix that makes slopes of the values at evenly spaced nodes, 4 or more.
+
+    It is that of the cubic spline whose third derivative does not jump at the last nodes but one.
+    """
+    left, right = np.eye(nodes) * 4.0, np.zeros((nodes, nodes))
+    for i in range(1, nodes - 1):
+        left[i, [i - 1, i + 1]] = 1.0
+        right[i, [i - 1, i + 1]] = -3.0, 3.0
+    left[0, :2], right[0, :3] = (1.0, 2.0), (-2.5, 2.0, 0.5)
+    left[-1, -2:], right[-1, -3:] = (2.0, 1.0), (-0.5, -2.0, 2.5)
+    return np.asarray(np.linalg.solve(left, right))

@@ -76,7 +76,14 @@ def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
     return [FORCE_MODELS[FREE], *fitted.models.values()], fitted.bounds
 
 
-def choose_terms(g: Array, alpha: Array, parts: Sequence[Array], rtol: object) -> Chosen:
+def choose_terms(
+    g: Array,
+    alpha: Array,
+    parts: Sequence[Array],
+    rtol: object,
+    fitted: Fitted | None = None,
+    refuse: bool = True,
+) -> Chosen:
     """Return models for the terms of forces.
 
     Parameters
@@ -87,6 +94,10 @@ def choose_terms(g: Array, alpha: Array, parts: Sequence[Array], rtol: object) -
         Gamma_o and the terms of wear and friction by Eq. (13) [N/m].
     rtol : float
         Relative error of their sum that will do [-].
+    fitted : Fitted, optional
+        The models to choose among; the shipped ones by default.
+    refuse : bool, default True
+        Whether to raise an error where no model is as exact, and not take the best one.
 
     Raises
     ------
@@ -94,7 +105,7 @@ def choose_terms(g: Array, alpha: Array, parts: Sequence[Array], rtol: object) -
         If no model is as exact; the message names the best one.
     """
     tolerance = one_number(RTOL, rtol)
-    models, bounds = available()
+    models, bounds = available(fitted)
     cleavage, estimates = parts[0], dict(zip(TERMS, parts[1:], strict=True))
     with np.errstate(all="ignore"):
         free = {name: _bound(bounds, FREE, name, g, alpha, estimates[name]) for name in TERMS}
@@ -118,7 +129,7 @@ def choose_terms(g: Array, alpha: Array, parts: Sequence[Array], rtol: object) -
             )
             # a weighted mean of errors is not above the largest of them
             found.append(np.minimum(arc + load, np.expm1(np.maximum(*errors))) + left)
-    return _chosen(models, np.array(found), needed, tolerance, g, alpha)
+    return _chosen(models, np.array(found), needed, tolerance, g, alpha, refuse)
 
 
 def choose_contact(g: Array, alpha: Array, rtol: object) -> Chosen:
@@ -156,12 +167,13 @@ def _chosen(
     tolerance: float,
     g: Array,
     alpha: Array,
+    refuse: bool = True,
 ) -> Chosen:
     meets = found <= tolerance
-    code = np.argmax(meets, axis=0)
+    code = np.where(np.any(meets, axis=0), np.argmax(meets, axis=0), np.argmin(found, axis=0))
     outside = ~np.any(np.isfinite(found), axis=0)
     short = ~np.any(meets, axis=0) & ~outside
-    if np.any(short):
+    if refuse and np.any(short):
         point = int(np.flatnonzero(short)[0])
         best = int(np.argmin(found[:, point]))
         error = found[best, point]

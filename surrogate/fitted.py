@@ -155,7 +155,7 @@ def _process(
 def _nodes(name: str, grid: Grid, arrays: Mapping[str, Any]) -> tuple[Any, Any]:
     short, past = (arrays[f"{name}.{side}"].astype(float) for side in ("short", "past"))
     for nodes, rows in ((short, grid.short + 1), (past, grid.past + 1)):
-        if nodes.shape != (rows, grid.stiffening + 1, 4):
+        if nodes.shape != (rows, grid.stiffening + 1):
             raise ValueError(f"the table of {name} has the shape {nodes.shape}")
     return short, past
 

@@ -153,3 +153,50 @@ def test_every_strategy_is_finer_than_the_one_before():
         assert fine.sectors > coarse.sectors
         assert fine.contact_spacing < coarse.contact_spacing
         assert fine.notch_radius < coarse.notch_radius
+
+
+def test_the_full_design_is_the_one_that_was_run(full):
+    """The store of the finished rows belongs to this hash: no field may be added to it."""
+    assert full.hash == "82564c89893a2fc4"
+
+
+def test_the_design_off_the_grid_is_what_its_comment_says():
+    design = read_design(model_file("off-grid.toml"))
+    random = np.random.default_rng(20412)
+    alpha = np.sort(random.uniform(2, 9, 12)).round(3)
+    assert design.alpha == tuple(alpha)
+    for value in design.alpha:
+        g = np.exp(random.uniform(np.log(2.5e-3), np.log(100), 6))
+        assert design.g(value) == tuple(sorted(float(f"{each:.4g}") for each in g))
+    assert len({(one.alpha, one.target) for one in design.configurations()}) == 72
+
+
+def test_the_design_off_the_grid_shares_meshes_but_no_point_with_the_campaign(full):
+    design = read_design(model_file("off-grid.toml"))
+    assert design.levels == full.levels
+    assert not set(design.alpha) & set(full.alpha)
+
+
+def test_listed_nodes_survive_the_store(tmp_path):
+    design = read_design(model_file("off-grid.toml"))
+    again = CampaignDesign.from_dict(json.loads(json.dumps(design.as_dict())))
+    assert again == design
+    assert again.hash == design.hash
+
+
+@pytest.mark.parametrize(
+    ("nodes", "message"),
+    [
+        ("[[1, 2]]", "g.nodes has 1 lists and alpha 2 values"),
+        ("[[1, 2], [3, 2]]", "does not rise"),
+        ("[[1, 2], []]", "give a list"),
+        ("[[1, 2], [3, 1e9]]", "give"),
+        ("[1, 2]", "give a list"),
+    ],
+)
+def test_listed_nodes_that_cannot_be_are_refused(tmp_path, nodes, message):
+    file = tmp_path / "listed.toml"
+    begin, end = SMALL.index("[g]"), SMALL.index("[levels.coarse]")
+    file.write_text(f"{SMALL[:begin]}[g]\nnodes = {nodes}\n\n{SMALL[end:]}")
+    with pytest.raises(InputError, match=message):
+        read_design(file)

@@ -6,10 +6,19 @@ from pathlib import Path
 import pytest
 
 import surrogate.fitted
+from fe_training import fit_gp
 from fe_training.fit import fit, write_fitted
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))  # for `made_up`
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_start():
+    """Fit hyperparameters from one start, for the time that it takes."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fit_gp, "_RESTARTS", 0)
+        yield
 
 
 @pytest.fixture(scope="session")

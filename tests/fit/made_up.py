@@ -7,8 +7,8 @@ from surrogate.quantities import POWER
 from surrogate.wedge import wedge_functions, wedge_load
 
 TOUCH = (-0.9, 2.0, 0.05)
-ALPHAS = (2.0, 2.2, 2.7, 3.5, 4.8, 6.3, 7.8, 8.7, 9.0)
-G = np.geomspace(5e-3, 60.0, 30)
+ALPHAS = (2.0, 2.4, 3.3, 4.7, 6.5, 8.3, 9.0)
+G = np.geomspace(5e-3, 60.0, 24)
 NOISE = 1e-4
 
 
@@ -27,7 +27,7 @@ def truth(g, alpha):
     load = 0.05 * past**2 * np.exp(-0.1 * past) - 0.05 * log_alpha / (1.0 + np.exp(-x))
     gap = (-np.expm1(0.6 * np.minimum(x, 0.0))) ** POWER
     return (
-        wedge["arc"] * np.exp(-arc),
+        2.0 * np.tanh(0.5 * wedge["arc"]) * np.exp(-arc),
         wedge["normal_load"] * np.exp(load),
         1.0 + wedge["distance"] * gap,
     )

@@ -50,12 +50,12 @@ def counted(monkeypatch):
 
 
 def test_without_friction_no_load_is_evaluated(counted):
-    cutting_force(scene(1.0, 3.0, 0.0, 2.0), "auto", rtol=0.01)
+    cutting_force(scene(1.0, 3.0, 0.0, 2.0), "auto", rtol=0.02)
     assert {name for _, name in counted} == {"arc"}
 
 
 def test_without_wear_no_arc_is_evaluated(counted):
-    cutting_force(scene(1.0, 3.0, 0.5, 0.0), "auto", rtol=0.01)
+    cutting_force(scene(1.0, 3.0, 0.5, 0.0), "auto", rtol=0.02)
     assert {name for _, name in counted} == {"normal_load"}
 
 
@@ -68,11 +68,11 @@ def test_with_neither_nothing_is_evaluated_anywhere(counted):
 
 
 def test_a_term_below_the_tolerance_is_not_evaluated(counted):
-    """Friction of about 1e-4 of the force at rtol = 1 %, with its own bound far below that."""
-    force = cutting_force(scene(1.0, 3.0, 1e-4, 1e4), "auto", rtol=0.01)
+    """Friction of about 1e-4 of the force at rtol = 2 %, with its own bound far below that."""
+    force = cutting_force(scene(1.0, 3.0, 1e-4, 1e4), "auto", rtol=0.02)
     assert {name for _, name in counted} == {"arc"}
     assert force.friction == cutting_force(scene(1.0, 3.0, 1e-4, 1e4), "eq13").friction
-    assert force.relative_error <= 0.01
+    assert force.relative_error <= 0.02
 
 
 def test_where_the_closed_form_will_do_nothing_is_evaluated(counted):
@@ -99,7 +99,7 @@ def test_each_point_is_evaluated_by_one_model_only(counted):
         assert max(n for (name, _), n in counted.items() if name == model) <= points
 
 
-@pytest.mark.parametrize("rtol", [0.3, 0.05, 0.01])
+@pytest.mark.parametrize("rtol", [0.3, 0.05, 0.02])
 def test_the_promise_is_kept(rtol):
     random = np.random.default_rng(1)
     g, alpha = np.exp(random.uniform(np.log(5e-3), np.log(60.0), 400)), random.uniform(2, 9, 400)
@@ -114,7 +114,7 @@ def test_the_promise_is_kept(rtol):
 def test_more_is_asked_of_costlier_models():
     order = ["eq13", "power-law", "table", "gp"]
     cut = scene(1.0, 3.0, 0.3, 3.0)
-    chosen = [cutting_force(cut, "auto", rtol=r).model for r in (1.0, 0.2, 0.01)]
+    chosen = [cutting_force(cut, "auto", rtol=r).model for r in (1.0, 0.2, 0.02)]
     assert chosen == sorted(chosen, key=order.index)
     assert len(set(chosen)) == 3
 
@@ -162,18 +162,18 @@ def test_dissipative_forces_are_within_the_tolerance_of_themselves():
     g = np.geomspace(6e-3, 50.0, 50)
     arc, load, _ = truth(g, 3.0)
     expected = 2.0 * (0.5 * arc + 0.1 * load)
-    found = dissipative_force(g, 3.0, 0.1, 0.5, model="auto", rtol=0.01)
-    assert np.max(np.abs(found / expected - 1.0)) <= 0.01
+    found = dissipative_force(g, 3.0, 0.1, 0.5, model="auto", rtol=0.02)
+    assert np.max(np.abs(found / expected - 1.0)) <= 0.02
 
 
 def test_contact_functions_within_a_tolerance():
     g = np.geomspace(6e-3, 50.0, 30)
-    contact = contact_functions(g, 3.0, model="auto", rtol=0.01)
+    contact = contact_functions(g, 3.0, model="auto", rtol=0.02)
     for found, true in zip(
         (contact.arc, contact.normal_load, contact.delta), truth(g, 3.0), strict=True
     ):
-        assert np.max(np.abs(found / true - 1.0)) <= 0.01
-    alone = contact_functions(1.0, 3.0, model="auto", rtol=0.01)
+        assert np.max(np.abs(found / true - 1.0)) <= 0.02
+    alone = contact_functions(1.0, 3.0, model="auto", rtol=0.02)
     assert type(alone.arc) is float
     assert alone.model == alone.chosen == "table"
     with pytest.raises(AccuracyError):

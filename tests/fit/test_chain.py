@@ -1,0 +1,270 @@
+"""From data sets to the shipped files in one command, on a made-up engine's rows."""
+
+import hashlib
+import json
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from made_up import ALPHAS, G, truth
+
+from fe_training.arc_ends import arc_length
+from fe_training.dataset import load_campaign, write_campaign
+from fe_training.design import CampaignDesign, Configuration, Denser, read_design
+from fe_training.errors import InputError
+from fe_training.fit import fit
+from fe_training.fit_points import ARC_FLOOR, points_of
+from fe_training.record import Outcome, Record
+from fe_training.regenerate import main
+from fe_training.store import Row
+from fe_training.surrogates import validation
+from fe_training.validate import Errors, calibration, summary
+from surrogate.fitted import read
+from surrogate.paths import model_file
+from surrogate.quantities import QUANTITIES
+
+LEVELS = read_design(model_file("campaign.toml")).levels
+SECTORS = {name: settings.sectors for name, settings in LEVELS.items()}
+
+
+def record(level, alpha, g):
+    """Return a record of the made-up contact on a mesh, whose errors fall with its sectors."""
+    arc, load, distance = (float(value) for value in truth(g, alpha))
+    mesh = 1.0 + 0.1 / SECTORS[level] ** 2
+    half = 0.5 * arc * mesh  # an arc from pi/2 - t to pi/2 + t has A = 2 sin t
+    first, last = np.pi / 2 - np.arcsin(half), np.pi / 2 + np.arcsin(half)
+    theta = np.linspace(first, last, 402)[1:-1]
+    return Record(
+        alpha=alpha,
+        target=g,
+        outcome=Outcome.CONVERGED,
+        energy_release_rate=g * (1.0 + 1e-6),
+        distance=1.0 + (distance - 1.0) * mesh,
+        insertion=0.0,
+        vertical_force=load * mesh,
+        horizontal_force=0.5 * g,
+        theta_1=first,
+        theta_2=last,
+        energy_release_rate_across=(g, g),
+        residual=1e-11,
+        iterations=5,
+        solver="made-up",
+        truncation_error=1e-5,
+        wall_time=1.0,
+        pressure_angle=theta,
+        pressure=np.sqrt((theta - first) * (last - theta)),
+    )
+
+
+def write(file, design):
+    rows = [
+        Row(one, 0, 1, {"wirecut": "made up"}, record(one.level, one.alpha, one.target))
+        for one in design.configurations()
+    ]
+    return write_campaign(file, design, rows)
+
+
+def design_of(alpha, nodes):
+    every = [node for each in nodes for node in each]
+    nowhere = Denser((2.0,), (1.0,), 0.0, 1.0)
+    count = max(map(len, nodes))
+    return CampaignDesign(
+        tuple(alpha), min(every), max(every), count, nowhere, 0.3, LEVELS, tuple(map(tuple, nodes))
+    )
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    """A folder with both data sets."""
+    folder = tmp_path_factory.mktemp("data")
+    grid = design_of(ALPHAS, [G.round(6).tolist()] * len(ALPHAS))
+    write(folder / "campaign.h5", grid)
+    random = np.random.default_rng(0)
+    alpha = np.sort(random.uniform(2.0, 9.0, 12))
+    nodes = [np.sort(np.exp(random.uniform(np.log(5e-3), np.log(60), 6))) for _ in alpha]
+    write(folder / "off-grid.h5", design_of(alpha.tolist(), [n.tolist() for n in nodes]))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(data, tmp_path_factory):
+    """A folder in which the command was run once."""
+    folder = tmp_path_factory.mktemp("made")
+    for file in data.iterdir():
+        shutil.copy(file, folder)
+    assert main(["--fit-only", "--out", str(folder)]) == 0
+    return folder
+
+
+def test_one_command_makes_all_files(made):
+    names = {file.name for file in made.iterdir()} - {"campaign.h5", "off-grid.h5"}
+    assert names == {
+        "campaign.h5.sha256",
+        "off-grid.h5.sha256",
+        "surrogates.npz",
+        "surrogates.npz.sha256",
+        "model-card.md",
+    }
+    content = (made / "surrogates.npz").read_bytes()
+    assert len(content) <= 100_000
+    digest = (made / "surrogates.npz.sha256").read_text().split()[0]
+    assert hashlib.sha256(content).hexdigest() == digest
+
+
+def test_the_file_tells_where_it_is_from(made):
+    about = read(str(made / "surrogates.npz")).about
+    assert about["provenance"]["points"] == len(ALPHAS) * len(G)
+    assert about["provenance"]["single_mesh"] is False
+    assert about["provenance"]["design_hash"] == load_campaign(made / "campaign.h5").design.hash
+    off_grid = about["errors"]["off the grid"]
+    assert off_grid["gp"]["force"]["count"] == 72 * 30
+    json.dumps(about)
+
+
+def test_the_card_has_every_table_and_no_gap(made):
+    card = (made / "model-card.md").read_text()
+    for heading in (
+        "Goals",
+        "The finite elements' own error bars",
+        "Points off the grid",
+        "Points left out one by one",
+        "Points left out with their alpha",
+        "The force by tau_w/(mu xi) and xi",
+        "Standard deviations of `gp`",
+        "What `auto` promises",
+        "The formula",
+        "Eq. (9) alpha by alpha",
+        "Where the tip touches the wire",
+    ):
+        assert f"\n## {heading}\n" in card
+    assert "nan" not in card
+    assert "trying out" not in card
+    assert "| forces of `auto` beyond rtol | 0 | 0 | yes |" in card
+    assert "| points off the grid | 72 | 60 | yes |" in card
+
+
+def test_refitting_reproduces_the_predictions_of_the_file(made):
+    """Fitted again from the data set, and compared in what is predicted, not in coefficients."""
+    again = fit(points_of(load_campaign(made / "campaign.h5")))
+    file = read(str(made / "surrogates.npz"))
+    random = np.random.default_rng(3)
+    g, alpha = np.exp(random.uniform(np.log(5e-3), np.log(60), 300)), random.uniform(2, 9, 300)
+    for name in ("power-law", "table", "gp"):
+        values, others = (each.models[name].contact(QUANTITIES, g, alpha) for each in (file, again))
+        for one, other in zip(values, others, strict=True):
+            assert one == pytest.approx(other, rel=1e-5)  # single precision of what is written
+
+
+def test_errors_off_the_grid_are_those_of_the_made_up_truth(made):
+    found = read(str(made / "surrogates.npz")).about["errors"]["off the grid"]
+    assert found["gp"]["normal_load"]["largest"] < 2e-3
+    assert found["eq13"]["arc"]["largest"] > 0.3
+
+
+def test_without_points_off_the_grid_the_card_says_so(data, tmp_path, capsys):
+    for name in ("campaign.h5", "campaign.h5.sha256"):
+        shutil.copy(data / name, tmp_path)
+    assert main(["--fit-only", "--out", str(tmp_path)]) == 0
+    assert "off-grid.h5 is not there" in capsys.readouterr().out
+    card = (tmp_path / "model-card.md").read_text()
+    assert "There are none yet: `regen-surrogate --off-grid` solves them." in card
+    assert read(str(tmp_path / "surrogates.npz")).about["errors"]["off the grid"] is None
+
+
+def test_points_of_one_mesh_are_taken_on_request_only(data, tmp_path, capsys):
+    campaign = load_campaign(data / "campaign.h5")
+    fine = list(LEVELS)[-1]
+    rows = [
+        Row(one, 0, 1, {}, record(fine, one.alpha, one.target))
+        for one in campaign.design.configurations()
+        if one.level == fine
+    ]
+    write_campaign(tmp_path / "campaign.h5", campaign.design, rows)
+    assert main(["--fit-only", "--out", str(tmp_path)]) == 2
+    assert "no point of the data set" in capsys.readouterr().err
+    assert main(["--fit-only", "--single-mesh", "--out", str(tmp_path)]) == 0
+    assert "**For trying out only:**" in (tmp_path / "model-card.md").read_text()
+
+
+def test_a_folder_without_data_is_refused(tmp_path, capsys):
+    assert main(["--fit-only", "--out", str(tmp_path)]) == 2
+    assert "campaign.h5" in capsys.readouterr().err
+
+
+def test_errors_of_the_points_are_those_of_the_meshes(data):
+    campaign = load_campaign(data / "campaign.h5")
+    points = points_of(campaign)
+    coarse, fine = (0.1 / n**2 for n in SECTORS.values())
+    loads = points.normal_load_std
+    assert loads == pytest.approx(np.full(len(loads), max(coarse - fine, 1e-4)), rel=0.01)
+    arc = truth(points.g, points.alpha)[0] * (1.0 + fine)
+    assert points.arc == pytest.approx(arc, abs=ARC_FLOOR)
+
+
+def test_a_point_without_a_profile_keeps_the_arc_of_its_ends(data, tmp_path):
+    campaign = load_campaign(data / "campaign.h5")
+    bare = [
+        Row(
+            one,
+            0,
+            1,
+            {},
+            replace(
+                record(one.level, one.alpha, one.target),
+                pressure_angle=np.zeros(1),
+                pressure=np.zeros(1),
+            ),
+        )
+        for one in campaign.design.configurations()
+    ]
+    write_campaign(tmp_path / "bare.h5", campaign.design, bare)
+    points = points_of(load_campaign(tmp_path / "bare.h5"))
+    arc = truth(points.g, points.alpha)[0]
+    assert points.arc == pytest.approx(arc, rel=1e-3)
+
+
+@pytest.mark.parametrize("nodes", [60, 96])
+@pytest.mark.parametrize("shift", [0.1, 0.5, 0.9])
+def test_ends_of_an_arc_between_nodes(nodes, shift):
+    """Within a tenth of a node's distance, where the last node itself is off by up to one."""
+    step = 1.4 / nodes
+    theta = 0.8 + step * (shift + np.arange(nodes))
+    theta = theta[theta < 2.2]
+    pressure = np.sqrt((theta - 0.8) * (2.2 - theta))
+    assert arc_length(theta, pressure) == pytest.approx(np.cos(0.8) - np.cos(2.2), abs=0.1 * step)
+
+
+def test_an_arc_of_few_nodes_has_no_length():
+    assert np.isnan(arc_length(np.array([0.5, 0.6, np.nan]), np.array([1.0, 1.0, np.nan])))
+
+
+def test_summaries():
+    assert summary(np.linspace(-1.0, 1.0, 201)) == Errors(201, 1.0, 0.95, 0.5)
+    assert summary(np.zeros(0)).count == 0
+
+
+def test_calibration_counts_with_both_error_bars():
+    errors, std, own = np.array([0.5, 1.5, 4.0]), np.full(3, 0.6), np.full(3, 0.8)
+    assert calibration(errors, std, own) == {"count": 3, "one": 1 / 3, "two": 2 / 3}
+    assert calibration(errors, std, own, np.zeros(3, bool))["count"] == 0
+
+
+def test_validation_without_any_other_points(made):
+    fitted = read(str(made / "surrogates.npz"))
+    points = points_of(load_campaign(made / "campaign.h5"))
+    found = validation(fitted, points, None)
+    assert found.off_grid is None
+    assert set(found.strengths) == {"eq13", "power-law", "table", "gp"}
+    zero = [errors for ratio, xi, errors in found.strengths["gp"] if xi == 0 and ratio < 1e9]
+    assert all(errors.largest == 0.0 for errors in zero)
+
+
+def test_too_few_points_are_refused(data):
+    points = points_of(load_campaign(data / "campaign.h5"))
+    with pytest.raises(InputError, match="30 points of 3 alphas or more, but there are 24 points"):
+        fit(points.taken(points.alpha == 2.0))
+
+
+def test_a_configuration_is_named_in_its_row():
+    assert str(Configuration("fine", 2.0, 1.0)) == "alpha=2,g=1,level=fine"
