@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow campaign-quick verify docs check format clean
+.PHONY: demo test test-slow torture torture-numpy campaign-quick verify docs check format clean
 .DEFAULT_GOAL := demo
 
 $(BIN)/python:
@@ -29,6 +29,13 @@ test: $(VENV)/.dev-installed
 
 test-slow: $(VENV)/.dev-installed
 	$(BIN)/python -m pytest -m slow
+
+torture: $(VENV)/.dev-installed
+	$(BIN)/python scripts/torture
+
+# the oldest numpy that pyproject.toml admits and the newest there is, each in an environment of its own
+torture-numpy:
+	$(PYTHON) scripts/torture-numpy
 
 campaign-quick: $(VENV)/.dev-installed
 	$(BIN)/regen-surrogate --quick --jobs 2

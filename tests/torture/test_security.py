@@ -34,6 +34,9 @@ FORBIDDEN_MODULES = {
 ALLOWED_IMPORTS = {"surrogate/__init__.py": "its own submodules, by names in the code"}
 """Where `import_module` is called: never with what comes from outside."""
 
+OWN_PYTHONS = {"scripts/torture-numpy": "environments that it has made itself"}
+"""What runs other programs than constant ones."""
+
 
 def modules():
     """Yield every module and script of the project."""
@@ -99,7 +102,8 @@ def test_nothing_is_pickled(path):
 def test_programs_are_named_by_the_code(path):
     """What is run by `subprocess` is a list whose first entry is a constant or this Python."""
     for call in calls(path):
-        if called(call).partition(".")[0] != "subprocess":
+        own = str(path.relative_to(ROOT)) in OWN_PYTHONS if path.is_relative_to(ROOT) else False
+        if called(call).partition(".")[0] != "subprocess" or own:
             continue
         command = call.args[0]
         if isinstance(command, ast.Name):
