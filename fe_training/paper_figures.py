@@ -19,6 +19,7 @@ from surrogate.figures import MEDIUM, SMALL, legend_above
 from .comparison import fit_power
 from .dataset import Campaign
 from .errors import InputError
+from .fit_points import points_of
 from .plots import plot_stress_ahead
 from .record import Outcome, Record
 from .reference import far_field_wedge
@@ -93,28 +94,23 @@ class Curve:
         alpha : float
             One of its exponents [-].
         unsure : bool
-            Whether to take points as well whose evidence is not within its bounds.
+            Whether to take points as well that only one mesh level has reached.
 
         Raises
         ------
         InputError
             If there are fewer than three points.
         """
-        points = data.points
-        sure = points["use"].astype(bool)
-        here = (points["alpha"] == alpha) & np.isfinite(points["arc"])
-        if not unsure:
-            here &= sure
-        if here.sum() < 3:
+        points = points_of(data, single_mesh=unsure)
+        points = points.taken(points.alpha == alpha)
+        if len(points) < 3:
             raise InputError(
-                f"the data have {int(here.sum())} points of alpha = {alpha:g} that may be used; "
+                f"the data have {len(points)} points of alpha = {alpha:g} that may be used; "
                 "a figure needs three or more: let the campaign go on."
             )
-        order = np.flatnonzero(here)[np.argsort(points["g"][here])]
-        g, arc, load, distance = (
-            points[name][order] for name in ("g", "arc", "normal_load", "distance")
-        )
-        return cls(alpha, g, arc, load, distance, sure[order])
+        used = data.points["use"].astype(bool) & (data.points["alpha"] == alpha)
+        sure = np.isin(points.g, data.points["g"][used])
+        return cls(alpha, points.g, points.arc, points.normal_load, points.distance, sure)
 
     @property
     def far(self) -> NDArray[np.bool_]:
