@@ -22,8 +22,9 @@ from .equilibrium import State
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-#: Neighbours among which the element that holds a place is looked for; doubled until it is found.
-_CANDIDATES = 8
+#: Neighbours among which the element that holds a place is looked for; doubled until it is found,
+#: or there are this many.
+_CANDIDATES, _MOST_CANDIDATES = 8, 128
 _INSIDE = 1e-6
 
 
@@ -92,23 +93,76 @@ def _local(body: Body, elements: Index, places: Array) -> Array:
 
 def _parents(coarse: Body, fine: Body) -> Index:
     """Return the element of the coarse mesh that holds each element of the nested fine one."""
+    return _holding(coarse, fine.mesh.p[:, fine.mesh.t].mean(axis=1))
+
+
+def _holding(body: Body, points: Array) -> Index:
+    """Return the element of a body that holds each of some points, shape (2, points).
+
+    The outer arc is a polygon, and the notch another one: a point that no element near it holds
+    belongs to the one that it is least outside of.
+    """
 
     def logarithmic(points: Array) -> Array:
         return np.stack([np.log(np.hypot(*points)), np.arctan2(points[1], points[0])], axis=-1)
 
-    old, new = (body.mesh.p[:, body.mesh.t].mean(axis=1) for body in (coarse, fine))
-    tree = cKDTree(logarithmic(old))
-    parents = np.full(new.shape[1], -1)
-    lost, k = np.arange(new.shape[1]), _CANDIDATES
+    tree = cKDTree(logarithmic(body.mesh.p[:, body.mesh.t].mean(axis=1)))
+    count, most = points.shape[1], body.mesh.t.shape[1]
+    found, depth = np.zeros(count, dtype=np.int64), np.full(count, -np.inf)
+    lost, k = np.arange(count), min(_CANDIDATES, most)
     while len(lost):
-        candidates = tree.query(logarithmic(new[:, lost]), k=min(k, old.shape[1]))[1]
+        candidates = tree.query(logarithmic(points[:, lost]), k=k)[1]
         for candidate in candidates.T:
-            x, y = _local(coarse, candidate, new[:, lost].T[:, None])[:, :, 0]
-            held = np.minimum(np.minimum(x, y), 1.0 - x - y) > _INSIDE
-            parents[lost[held]] = candidate[held]
-        lost, k = lost[parents[lost] < 0], 2 * k
-        assert k < 4 * old.shape[1], "the fine mesh is not nested in the coarse one"
-    return parents
+            x, y = _local(body, candidate, points[:, lost].T[:, None])[:, :, 0]
+            inside = np.minimum(np.minimum(x, y), 1.0 - x - y)
+            better = inside > depth[lost]
+            found[lost[better]], depth[lost[better]] = candidate[better], inside[better]
+        if k == min(_MOST_CANDIDATES, most):
+            break
+        lost, k = lost[depth[lost] < -_INSIDE], min(2 * k, _MOST_CANDIDATES, most)
+    return found
+
+
+def transferred(body: Body, state: State, other: Body) -> State:
+    """Return a state carried over to another mesh of the same body, as a start for Newton's method.
+
+    Parameters
+    ----------
+    body : Body
+    state : State
+        An equilibrium.
+    other : Body
+        The body on another mesh, finer where the solution is to be.
+
+    Returns
+    -------
+    State
+        About the same deformation, interpolated node by node; it has no tangent.
+    """
+    n = len(other.face)
+    places = other.along_face
+    return replace(
+        state,
+        u=np.where(other.held, 0.0, _interpolated(body, other.nodes, state.u, body.connectivity)),
+        p=_interpolated(body, other.pressure_places, state.p, body.triangles),
+        active=ActiveSet(
+            *(
+                np.interp(places, body.along_face, touching.astype(float)) > 0.5
+                for touching in (state.active.wire, state.active.plane)
+            )
+        ),
+        force=np.zeros(n),
+        normal=np.zeros((n, 2)),
+        tangent=None,
+    )
+
+
+def _interpolated(body: Body, places: Array, values: Array, connectivity: Index) -> Array:
+    """Return nodal values of a body at places, by the shape functions of their elements."""
+    elements = _holding(body, places.T)
+    local = _local(body, elements, places[:, None])[:, :, 0]
+    of = body.displacement_shape if connectivity is body.connectivity else body.pressure_shape
+    return np.asarray(np.einsum("nk,nk...->n...", of(local), values[connectivity[elements]]))
 
 
 def _between(coarse: Body, fine: Body, touching: NDArray[np.bool_]) -> NDArray[np.bool_]:

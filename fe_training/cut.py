@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import observe, path
-from .adapt import determinant_scatter, refined
+from .adapt import determinant_scatter, refined, transferred
 from .body import Body
 from .energy_release import domain_integral, plateau, strain_energy
 from .equilibrium import Control, NewtonOutcome, State, control_value, equilibrate, undeformed
@@ -26,6 +26,8 @@ from .record import Outcome, Record
 from .solvers import LinearSolver, make_solver
 
 _RAISE = Steps(0.15, 0.35)
+#: The wire is raised on a mesh as coarse as this, where it takes many steps.
+_ROUGH_SECTORS, _ROUGH_SPACING = 12, 0.2
 #: Largest relative change of the horizontal force in one step.
 _FORCE_STEP = 0.26
 _CORRECTIONS = 8
@@ -101,6 +103,13 @@ class MeshTooLargeError(PathStalledError):
     """The path asks for a finer mesh than is worth its time."""
 
 
+Build = Callable[[float, MeshSpec, Settings], Body]
+
+
+def _cracked(alpha: float, spec: MeshSpec, settings: Settings) -> Body:
+    return Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
+
+
 class Cut:
     """A body of one material on one mesh, with what is needed to make records of its states.
 
@@ -112,20 +121,43 @@ class Cut:
         The mesh.
     settings : Settings
         Bulk term and solver.
-    body : Body, optional
-        A body of another shape, on a mesh of its own.
+    build : callable, optional
+        Makes a body of another shape from `alpha`, `spec` and `settings`.
     """
 
     def __init__(
-        self, alpha: float, spec: MeshSpec, settings: Settings, body: Body | None = None
+        self, alpha: float, spec: MeshSpec, settings: Settings, build: Build | None = None
     ) -> None:
-        self.spec, self.settings = spec, settings
-        self.body = body or Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
+        self.spec, self.settings, self._build = spec, settings, build or _cracked
+        self.body = self._build(alpha, spec, settings)
         self.solver: LinearSolver = make_solver(settings.solver)
         self._clock = time.perf_counter()
 
     def raised(self, position: float) -> State:
         """Return the state with the wire raised to the symmetry plane at `position`."""
+        rough = self.rough()
+        if rough is None:
+            return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+        return self.taken_over(rough, rough.raised(position))
+
+    def rough(self) -> Cut | None:
+        """Return the body on a much coarser mesh; None where its own is as coarse."""
+        spec = replace(
+            self.spec,
+            sectors=min(self.spec.sectors, _ROUGH_SECTORS),
+            contact_spacing=max(self.spec.contact_spacing, _ROUGH_SPACING),
+        )
+        if spec == self.spec:
+            return None
+        return Cut(self.body.alpha, spec, self.settings, self._build)
+
+    def taken_over(self, other: Cut, state: State) -> State:
+        """Return the equilibrium at a position of the wire that another mesh has reached."""
+        position = float(state.centre[0])
+        start = transferred(other.body, state, self.body)
+        found, outcome = equilibrate(self.body, start, Control.POSITION, position, self.solver)
+        if outcome is NewtonOutcome.CONVERGED:
+            return found
         return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
 
     def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:

@@ -33,8 +33,8 @@ _PUSH_FIRST, _PUSH_LARGEST = 0.08, 0.15
 _WINDOW = 1.6
 _TRIES = 4
 #: Far from the tip 2 F_h is a small difference of large forces: elements grow more slowly away from
-#: the contact, and those at its ends are split this often.
-_FAR_FIELD_GROWTH, _SHARPENINGS = 0.25, 1
+#: the contact, and those at its ends are split this often: the first time may leave 6e-3 of F_h.
+_FAR_FIELD_GROWTH, _SHARPENINGS = 0.25, 2
 #: Below this g the wire is raised afresh without trying the indentation branch.
 _SURELY_FAR = 0.15
 #: The mesh that mesh errors are measured with, and how near in g the two solutions have to be.
@@ -120,45 +120,50 @@ def _indentation(
     return records, below
 
 
-def _far_field(
-    alpha: float, g: float, settings: Settings, ratio: float, shift: bool
-) -> tuple[Record, float]:
-    """Return the record at a small g, and J over its linear-elastic estimate.
-
-    `ratio` is that quotient for a neighbouring g; it places the mesh.
-    """
-    depth = float(far_field_wedge_from_energy_release_rate(g / ratio).distance) - 0.4
-    for _ in range(_TRIES):
-        cut = far_field_cut(alpha, depth, settings)
-        try:
-            state = cut.raised(-depth)
-            J = cut.energy_release_rate(state)
-            # J falls about like 1/distance: where the wire should be
-            wanted = depth * (J / g) ** 0.9
+def _far_field(alpha: float, g: float, settings: Settings, shift: bool) -> Record:
+    """Return the record at a small g: found on a rough mesh, then solved on a fine one."""
+    depth = float(far_field_wedge_from_energy_release_rate(g).distance) - 0.4
+    cut = far_field_cut(alpha, depth, settings)
+    try:
+        for _ in range(_TRIES):
+            cut = far_field_cut(alpha, depth, settings)
+            rough = cut.rough() or cut
+            state = rough.raised(-depth)
+            wanted = depth + _way_to(rough, state, g)
             if abs(wanted - depth) < 0.5 * _WINDOW:
-                # a second, estimated point well away from the one wanted: only its slope is used
-                slope = [(-depth, J), (-2.0 * depth, J * 0.5 ** (1 / 0.9))]
-                state = path.land(
-                    cut.body,
-                    state,
-                    Control.POSITION,
-                    cut.energy_release_rate,
-                    g,
-                    slope,
-                    cut.solver,
-                    settings.tolerance,
-                )
-                for _ in range(_SHARPENINGS):
-                    state = cut.sharpened(state, Control.POSITION)
-                record = cut.record(state, g, shift)
-                linear = far_field_wedge(record.distance).energy_release_rate
-                return record, float(record.energy_release_rate / linear)
+                break
             depth = wanted
-        except PathStalledError as error:
-            return cut.failure(error, g), ratio
-    reason = f"g = {g:.6g}: no mesh had the wire in its fine part after {_TRIES} tries"
-    failed = Record(alpha=alpha, outcome=Outcome.NOT_REACHED, target=g, reason=reason)
-    return failed, ratio
+        else:
+            reason = f"g = {g:.6g}: no mesh had the wire in its fine part after {_TRIES} tries"
+            return Record(alpha=alpha, outcome=Outcome.NOT_REACHED, target=g, reason=reason)
+        state = _landed(rough, state, g)
+        cut = far_field_cut(alpha, -float(state.centre[0]), settings)
+        state = _landed(cut, cut.taken_over(rough, state), g)
+        for _ in range(_SHARPENINGS):
+            state = cut.sharpened(state, Control.POSITION)
+        return cut.record(state, g, shift)
+    except PathStalledError as error:
+        return cut.failure(error, g)
+
+
+def _way_to(cut: Cut, state: State, g: float) -> float:
+    """Return how much farther from the tip J is g, if J goes on as the linear wedge's does."""
+    here = control_value(cut.body, state, Control.DISTANCE)
+    linear = float(far_field_wedge(here).energy_release_rate)
+    ratio = cut.energy_release_rate(state) / linear
+    return float(far_field_wedge_from_energy_release_rate(g / ratio).distance) - here
+
+
+def _landed(cut: Cut, state: State, g: float) -> State:
+    """Return the state with J = g, near a state on the far-field branch."""
+    J, position = cut.energy_release_rate(state), float(state.centre[0])
+    if abs(J / g - 1.0) < cut.settings.tolerance:
+        return state
+    # a second, estimated point farther from the goal than the first: only its slope is used
+    points = [(position, J), (position - 3.0 * _way_to(cut, state, g), J * (g / J) ** 3)]
+    solver, tolerance = cut.solver, cut.settings.tolerance
+    measure = cut.energy_release_rate
+    return path.land(cut.body, state, Control.POSITION, measure, g, points, solver, tolerance)
 
 
 def solve_path(
@@ -218,11 +223,9 @@ def solve_path(
     near = targets[len(far) :]
     inner, below = _indentation(alpha, near, settings, report, shift) if near else ([], [])
     outer: list[Record] = []
-    ratio = 1.0
     for value in far + below:
-        record, ratio = _far_field(alpha, value, settings, ratio, shift)
-        outer.append(record)
-        report(record)
+        outer.append(_far_field(alpha, value, settings, shift))
+        report(outer[-1])
     return outer + inner
 
 

@@ -101,9 +101,12 @@ def block_cut(
         contact_spacing=settings.contact_spacing,
         growth=0.25,
     )
-    mesh = block_mesh(spec, _LENGTH * half_height + max(depth, 0.0))
-    body = Block(mesh, alpha, settings.bulk, side.value)
-    return Cut(alpha, spec, settings, body)
+
+    def build(alpha: float, spec: MeshSpec, settings: Settings) -> Body:
+        mesh = block_mesh(spec, _LENGTH * half_height + max(depth, 0.0))
+        return Block(mesh, alpha, settings.bulk, side.value)
+
+    return Cut(alpha, spec, settings, build)
 
 
 def raised(cut: Cut, depth: float) -> State:
