@@ -268,10 +268,11 @@ def _say_points(data: Campaign) -> None:
 
 def _fit(data: Campaign, out: Path, single_mesh: bool) -> None:
     """Fit, validate and write the models, or say why they cannot be made yet."""
+    _say("3/4 fit")
     try:
         _make(data, out, single_mesh)
     except InputError as error:
-        _say(f"3/4 fit: not made, as {error}")
+        _say(f"    not made, as {error}")
         _say("4/4 validation: there is nothing to validate")
 
 

@@ -109,7 +109,7 @@ def make_surrogates(
     """
     points = points_of(data, single_mesh)
     wanted = len(data.design.alpha) * data.design.count
-    say(f"3/4 fit: {len(points)} of {wanted} points, {len(np.unique(points.alpha))} alphas")
+    say(f"    {len(points)} of {wanted} points, {len(np.unique(points.alpha))} alphas")
     fitted = fit(points, _about(data, points, wanted, single_mesh))
     others = points_of(off_grid, single_mesh=True) if off_grid else None
     found = validation(fitted, points, others)
