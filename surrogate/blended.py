@@ -102,9 +102,9 @@ def load_formula(b: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
 def distance_formula(c: Constants, log_g: Any, y: Any, touch: Any) -> tuple[Any, Any, Any, Any]:
     """Return delta/R_w and its derivatives by ln g, y and ln g_touch."""
     power, root, x = c[0] + c[1] * y, c[2] + c[3] * y, log_g - touch
-    short = x < 0.0
-    x = where(short, x, -1.0)
-    rest = exp(power * x)
+    rest = exp(power * where(x < 0.0, x, -1.0))
+    short = (x < 0.0) & (rest < 1.0)  # nearer the gap is below rounding, and so is delta - 1
+    x, rest = where(short, x, -1.0), where(short, rest, 0.5)
     left = 1.0 - rest
     gap = _wedge("distance", log_g) * exp(root * log(left))
     bend = root * rest / left

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate.archive import read_archive
 from surrogate.errors import InputError
 from surrogate.paths import file_name
 
@@ -109,18 +110,16 @@ def _verified(file: Path) -> bytes:
 
 def _decoded(file: Path, content: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-            text = archive[_ABOUT].tobytes()
-            about = json.loads(text, parse_constant=_no_number)
-            _require_schema(file, str(about["schema"]))
-            return about, {name: archive[name] for name in archive.files if name != _ABOUT}
-    except InputError:
-        raise
-    except (KeyError, ValueError, TypeError, OSError, EOFError, zipfile.BadZipFile) as error:
+        arrays = read_archive(content)
+        about = json.loads(arrays.pop(_ABOUT).tobytes(), parse_constant=_no_number)
+        schema = str(about["schema"])
+    except (KeyError, ValueError, TypeError, RecursionError) as error:
         raise InputError(
             f"{file} must be a file of fitted models, but it cannot be decoded ({error}); "
             f"{_REMEDY}."
         ) from None
+    _require_schema(file, schema)
+    return about, arrays
 
 
 def _no_number(name: str) -> float:

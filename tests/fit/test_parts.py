@@ -8,7 +8,7 @@ import pytest
 from made_up import points
 
 from fe_training.fit_gp import leave_out_errors
-from surrogate.blended import BlendModel
+from surrogate.blended import BlendModel, distance_formula
 from surrogate.cell_table import CellTable, Grid
 from surrogate.domain import Domain
 from surrogate.gaussian_process import GaussianProcess
@@ -222,3 +222,16 @@ def test_points_can_be_taken():
     some = points().taken(slice(3, 7))
     assert len(some) == 4
     assert some.g[0] == points().g[3]
+
+
+def test_the_formula_of_delta_next_to_the_touch():
+    """Where 1 - exp(p x) rounds to 0, alone and in arrays."""
+    constants = (0.3, 0.0, 2.0, 0.0)
+    x = np.array([0.0, -1e-300, -1e-17, -1e-12, -1e-3])
+    together = distance_formula(constants, x, 0.7, 0.0)
+    assert together[0][:3].tolist() == [1.0, 1.0, 1.0]
+    assert together[0][-1] > 1.0
+    for i, one in enumerate(x.tolist()):
+        alone = distance_formula(constants, one, 0.7, 0.0)
+        assert [float(value) for value in alone] == [float(column[i]) for column in together]
+    assert all(np.isfinite(column).all() for column in together)

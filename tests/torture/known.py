@@ -13,9 +13,6 @@ KNOWN = {
     r"contact_functions: (warning|differs): .*eq9": "B of eq9 overflows with a warning, alone",
     r"eq9: warning: alpha = .*overflow": "B of eq9 overflows with a warning, alone",
     r"table: other error: slopes at .*ArrayType": "its slopes at many g and one alpha",
-    r".*surrogates.npz, hostile: other error: (error|MemoryError|NotImplementedError|\w*Error)": (
-        "with a checksum that fits, not every damage of a file of fitted models is refused in words"
-    ),
     r"energy_release_rate: other error: .*\(extrapolate": "extrapolate may be no bool",
     r"force_gradient: wrong value: .*eq9": (
         "derivatives of eq9 leave the range of numbers before their product with xi does"
