@@ -126,13 +126,12 @@ def _far_field(alpha: float, g: float, settings: Settings, shift: bool) -> Recor
     cut = far_field_cut(alpha, depth, settings)
     try:
         for _ in range(_TRIES):
-            cut = far_field_cut(alpha, depth, settings)
             rough = cut.rough() or cut
             state = rough.raised(-depth)
             wanted = depth + _way_to(rough, state, g)
             if abs(wanted - depth) < 0.5 * _WINDOW:
                 break
-            depth = wanted
+            depth, cut = wanted, far_field_cut(alpha, wanted, settings)
         else:
             reason = f"g = {g:.6g}: no mesh had the wire in its fine part after {_TRIES} tries"
             return Record(alpha=alpha, outcome=Outcome.NOT_REACHED, target=g, reason=reason)
