@@ -202,7 +202,7 @@ def power_law_dissipation(
     3.4294
     """
     quantities = (DIMENSIONLESS_TOUGHNESS, FRICTION_COEFFICIENT, EXPONENT)
-    return evaluate_checked(_power_law, quantities, (g, friction_coefficient, exponent))
+    return evaluate_checked(power_law, quantities, (g, friction_coefficient, exponent))
 
 
 def high_toughness_force(
@@ -499,7 +499,7 @@ def table_1_slope(alpha: Any) -> Any:
     return where(alpha < a1, (n1 - n0) / (a1 - a0), (n2 - n1) / (a2 - a1))
 
 
-def _power_law(g: Any, xi: Any, n: Any) -> Any:
+def power_law(g: Any, xi: Any, n: Any) -> Any:
     with np.errstate(all="ignore"):
         power = _raised(g, n)
         force = xi * power

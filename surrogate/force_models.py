@@ -13,36 +13,35 @@ All methods work on validated floats as well as on float64 blocks; nothing is ch
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from surrogate.elementwise import exp, log, product, quotient, ratio, where
-from surrogate.equations import (
-    DIMENSIONLESS_TOUGHNESS,
-    TABLE_1,
-    TABULATED_STIFFENING,
-    table_1_exponent,
-    table_1_slope,
+from surrogate import power_friction
+from surrogate.conditions import (
+    MUCH_GREATER,
+    Condition,
+    always,
+    friction_free,
+    high_toughness,
+    low_toughness,
 )
+from surrogate.elementwise import product, quotient, ratio, where
+from surrogate.equations import DIMENSIONLESS_TOUGHNESS, TABLE_1, TABULATED_STIFFENING
 from surrogate.errors import UnknownModelError
 from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
 __all__ = [
     "FITTED_NAMES",
     "FORCE_MODELS",
-    "MUCH_GREATER",
     "ClosedForm",
     "ForceModel",
     "PowerLaw",
     "force_model",
 ]
-
-MUCH_GREATER = 10.0
-"""The factor that >> and << in the paper's conditions are taken to mean."""
 
 
 class ForceModel(ABC):
@@ -79,7 +78,7 @@ class ForceModel(ABC):
     def distance(self, g: Any, alpha: Any) -> Any:
         """Return delta/R_w [-], 1 from the touch on; by Eq. (5) where a model has no own."""
         with np.errstate(all="ignore"):
-            return where(g < 1.0, 1.0 / np.sqrt(g), 1.0)
+            return where(g < 1.0, 1.0 / np.sqrt(np.abs(g)), 1.0)  # -0.0 is 0
 
     def energy_release_rate(self, distance: Any, alpha: Any) -> Any:
         """Return J/(mu R_w) [-] at delta/R_w above 1: the inverse of `distance`."""
@@ -148,10 +147,6 @@ class ForceModel(ABC):
         """Return whether the model holds."""
 
 
-Condition = Callable[[Any, Any, Any, Any, Any], Any]
-"""Whether a closed form holds, from mu, Gamma_o, R_w, xi and tau_w."""
-
-
 @dataclass(frozen=True)
 class ClosedForm(ForceModel):
     """Constant A and a B that is linear in g: 2 A = `arc_2`, 2 B = `load_2` + `load_2_slope` g."""
@@ -215,55 +210,29 @@ class PowerLaw(ForceModel):
         return 0.0
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
-        return 0.5 * np.power(g, table_1_exponent(alpha))
+        return power_friction.load(g, alpha)
 
     def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         return 0.0, 0.0
 
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        """Return the slopes of g^n/2, infinite in g where g = 0 and n < 1."""
-        n = table_1_exponent(alpha)
-        with np.errstate(all="ignore"):  # of 0 and of numbers whose power overflows
-            log_g = log(g)
-            in_g = 0.5 * n * where(n == 1.0, 1.0, exp((n - 1.0) * log_g))
-            in_alpha = 0.5 * exp(n * log_g) * log_g * table_1_slope(alpha)
-        return in_g, where(g == 0.0, 0.0, in_alpha)
+        return power_friction.load_slopes(g, alpha)
 
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return friction xi Gamma_o g^(n - 1) and no wear; no friction where Gamma_o = 0."""
-        excess = table_1_exponent(alpha) - 1.0
-        log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
-        power = exp(excess * log_g)
-        power = where(excess == 0.0, 1.0, power)
-        friction = product(xi, gamma, power)
-        return where((xi == 0.0) | (gamma == 0.0), 0.0, friction), 0.0
+        return power_friction.friction(mu, gamma, radius, xi, alpha), 0.0
 
     def gradient(
         self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
     ) -> tuple[Any, ...]:
         """Return those of Gamma_o + xi Gamma_o^n (mu R_w)^(1 - n); nan where it has none."""
-        n = table_1_exponent(alpha)
-        excess = n - 1.0
-        with np.errstate(all="ignore"):  # of 0, and of powers that overflow
-            log_mu, log_gamma, log_radius = log(mu), log(gamma), log(radius)
-            log_g = log_gamma - (log_mu + log_radius)
-            power = where(excess == 0.0, 1.0, exp(excess * log_g))
-            in_mu = exp(n * (log_gamma - log_mu) - excess * log_radius)
-            in_radius = exp(n * (log_gamma - log_radius) - excess * log_mu)
-            friction = self.terms(mu, gamma, radius, 1.0, 0.0, alpha)[0]
-            in_alpha = where(friction == 0.0, 0.0, friction * log_g * table_1_slope(alpha))
-        no_change = (xi == 0.0) | (excess == 0.0)
-        return (
-            where(no_change, 0.0, -excess * xi * in_mu),
-            1.0 + where(xi == 0.0, 0.0, n * xi * power),
-            where(no_change, 0.0, -excess * xi * in_radius),
-            friction,
-            0.0,
-            where(xi == 0.0, 0.0, xi * in_alpha),
+        in_mu, in_gamma, in_radius, in_xi, in_alpha = power_friction.friction_slopes(
+            mu, gamma, radius, xi, alpha
         )
+        return in_mu, 1.0 + in_gamma, in_radius, in_xi, 0.0, in_alpha
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
-        return _high_toughness(mu, gamma, radius, xi, wear)
+        return high_toughness(mu, gamma, radius, xi, wear)
 
 
 def _times(factor: Any, slope: Any) -> Any:
@@ -271,28 +240,12 @@ def _times(factor: Any, slope: Any) -> Any:
     return where(factor == 0.0, 0.0, factor * slope)
 
 
-def _always(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return True
-
-
-def _high_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return (gamma >= MUCH_GREATER * (mu * radius)) & (gamma > 0.0)
-
-
-def _low_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return gamma <= mu * radius
-
-
-def _friction_free(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    return (MUCH_GREATER * xi <= 1.0) & (MUCH_GREATER * (xi * mu) <= wear) | (xi == 0.0)
-
-
 def _by_name(*models: ForceModel) -> Mapping[str, ForceModel]:
     return MappingProxyType({model.name: model for model in models})
 
 
 FORCE_MODELS = _by_name(
-    ClosedForm("eq13", "Eq. (13)", "any", 4.0, 4.0, 1.0, _always),
+    ClosedForm("eq13", "Eq. (13)", "any", 4.0, 4.0, 1.0, always),
     ClosedForm(
         "high-toughness",
         "Eq. (10)",
@@ -300,9 +253,9 @@ FORCE_MODELS = _by_name(
         0.0,
         0.0,
         1.0,
-        _high_toughness,
+        high_toughness,
     ),
-    ClosedForm("low-toughness", "Eq. (12)", "Gamma_o <= mu R_w", 4.0, 4.0, 0.0, _low_toughness),
+    ClosedForm("low-toughness", "Eq. (12)", "Gamma_o <= mu R_w", 4.0, 4.0, 0.0, low_toughness),
     ClosedForm(
         "friction-free",
         "Eq. (15)",
@@ -310,7 +263,7 @@ FORCE_MODELS = _by_name(
         4.0,
         0.0,
         0.0,
-        _friction_free,
+        friction_free,
     ),
     PowerLaw(),
 )
