@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .arc_ends import arc_length
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -60,9 +59,6 @@ class FitPoints:
 def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
     """Return the points of a campaign that may be used.
 
-    A is computed from the pressure profiles, see `fe_training.arc_ends`, and so is its error from
-    the two meshes.
-
     Parameters
     ----------
     campaign : Campaign
@@ -92,41 +88,19 @@ def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
         )
     columns = {name: np.asarray(values)[use] for name, values in points.columns.items()}
     truncation = columns["truncation_error"]
-    arc, arc_error = _arcs(campaign, columns)
     found = FitPoints(
         alpha=columns["alpha"],
         g=columns["g"],
-        arc=arc,
+        arc=columns["arc"],
         normal_load=columns["normal_load"],
         distance=columns["distance"],
-        arc_std=_at_least(arc_error, ARC_FLOOR, 2e-3),
+        arc_std=_at_least(columns["arc_error"], ARC_FLOOR, 2e-3),
         normal_load_std=np.hypot(
             _at_least(columns["normal_load_error"], LOAD_FLOOR, 5e-4), truncation
         ),
         distance_std=_at_least(columns["distance_error"], DISTANCE_FLOOR, 5e-4),
     )
     return found.taken(np.lexsort((found.g, found.alpha)))
-
-
-def _arcs(campaign: Campaign, points: dict[str, Any]) -> tuple[Floats, Floats]:
-    """Return A of points by the pressure profiles, and its difference between the meshes."""
-    rows = campaign.rows
-    by_ends = np.cos(rows["theta_1"]) - np.cos(rows["theta_2"])
-    by_profile = np.array(
-        [arc_length(t, p) for t, p in zip(rows["pressure_angle"], rows["pressure"], strict=True)]
-    )
-    known = np.isfinite(by_profile)
-    row = points["row"]
-    # the point's value is the row's, moved to the target
-    arc = points["arc"] + np.where(known[row], by_profile[row] - by_ends[row], 0.0)
-    places = zip(rows["level"], rows["alpha"], rows["target"], strict=True)
-    index = {place: i for i, place in enumerate(places)}
-    (coarse, _), error = tuple(campaign.design.levels), np.full(len(row), np.nan)
-    for i, (alpha, g) in enumerate(zip(points["alpha"], points["g"], strict=True)):
-        twin = index.get((coarse, alpha, g), -1)
-        if twin >= 0 and twin != row[i] and known[twin] and known[row[i]]:
-            error[i] = abs(by_profile[twin] - by_profile[row[i]])
-    return arc, np.where(np.isnan(error), points["arc_error"], error)
 
 
 def _at_least(errors: Floats, floor: float, unknown: float) -> Floats:

@@ -10,12 +10,10 @@ from skfem import ElementTriP1, ElementTriP2, FacetBasis
 
 from . import ogden
 from .body import Body
+from .contact_ends import contact_ends
 from .equilibrium import State
 
 Array = NDArray[np.float64]
-
-#: Nodes from which the end of the arc is extrapolated, the outermost ones left out.
-_END_NODES, _LEFT_OUT = 6, 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,26 +40,12 @@ class ContactArc:
 
 
 def contact_arc(body: Body, state: State) -> ContactArc:
-    """Return the contact arc and the pressure on it.
-
-    The pressure falls to zero like a square root at a free end, so its square is extrapolated
-    linearly from the last nodes; the end lies between the last touching node and its neighbour.
-    """
+    """Return the contact arc and the pressure on it."""
     position = body.nodes[body.face] + state.u[body.face]
-    theta_all = np.arctan2(position[:, 1], position[:, 0] - state.centre[0])
     touching = np.flatnonzero(state.active.wire)
-    if len(touching) < 2:
-        return ContactArc(np.nan, np.nan, np.empty(0), np.empty(0))
+    theta = np.arctan2(position[:, 1], position[:, 0] - state.centre[0])[touching]
     pressure = (state.force / _tributary(position))[touching]
-    theta = theta_all[touching]
-    before = theta_all[touching[0] - 1] if touching[0] > 0 else 0.0
-    after = theta_all[min(touching[-1] + 1, len(theta_all) - 1)]
-    return ContactArc(
-        max(_end(theta, pressure, before), 0.0),
-        _end(theta[::-1], pressure[::-1], after),
-        theta,
-        pressure,
-    )
+    return ContactArc(*contact_ends(theta, pressure), theta, pressure)
 
 
 def _tributary(position: Array) -> Array:
@@ -73,18 +57,6 @@ def _tributary(position: Array) -> Array:
     length[1::2] += edge * (4.0 / 6.0)
     length[2::2] += edge / 6.0
     return length
-
-
-def _end(theta: Array, pressure: Array, neighbour: float) -> float:
-    """Return the angle at which the pressure vanishes, for nodes ordered from that end."""
-    last = theta[0]
-    near = slice(_LEFT_OUT, _LEFT_OUT + _END_NODES)
-    if len(theta) < _LEFT_OUT + 2:
-        return float(0.5 * (last + neighbour))
-    slope, offset = np.polyfit(theta[near] - last, pressure[near] ** 2, 1)
-    zero = last - offset / slope if slope != 0 else neighbour
-    low, high = sorted((last, neighbour))
-    return float(np.clip(zero, low, high))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,7 +20,8 @@ from fe_training.store import Store
 def record(alpha, g, sectors=24, **changed):
     """Return a made-up record whose values depend a little on the mesh."""
     mesh = 1.0 + 0.5 / sectors**2
-    points = 40 + round(100 * g) % 200
+    theta_1, theta_2 = 0.5, 2.0 + 0.01 * math.tanh(g)
+    angle = np.linspace(theta_1, theta_2, 42 + round(100 * g) % 200)[1:-1]
     values = {
         "alpha": alpha,
         "target": g,
@@ -30,8 +31,8 @@ def record(alpha, g, sectors=24, **changed):
         "insertion": math.log(g),
         "vertical_force": (2.0 + 0.3 * g) * mesh,
         "horizontal_force": 0.5 * g,
-        "theta_1": 0.5,
-        "theta_2": 2.0 + 0.01 * math.tanh(g),
+        "theta_1": float(angle[0]),
+        "theta_2": float(angle[-1]),
         "energy_release_rate_across": (g, g * (1 + 1e-6)),
         "residual": 1e-11,
         "iterations": 5,
@@ -40,8 +41,8 @@ def record(alpha, g, sectors=24, **changed):
         "solver": "made-up",
         "truncation_error": 1e-4,
         "wall_time": 2.0,
-        "pressure_angle": np.linspace(0.5, 2.0, points),
-        "pressure": np.sin(np.linspace(0.0, np.pi, points)) * alpha,
+        "pressure_angle": angle,
+        "pressure": np.sqrt((angle - theta_1) * (theta_2 - angle)) * alpha,
         "ahead_reference": np.geomspace(1e-3, 1.0, 30),
         "ahead_deformed": np.geomspace(1e-3, 1.0, 30) * 1.5,
         "ahead_stress": np.geomspace(1.0, 1e-3, 30),

@@ -3,13 +3,12 @@
 import hashlib
 import json
 import shutil
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from made_up import ALPHAS, G, truth
 
-from fe_training.arc_ends import arc_length
+from fe_training.contact_ends import contact_ends
 from fe_training.dataset import load_campaign, write_campaign
 from fe_training.design import CampaignDesign, Configuration, Denser, read_design
 from fe_training.errors import InputError
@@ -202,28 +201,6 @@ def test_errors_of_the_points_are_those_of_the_meshes(data):
     assert points.arc == pytest.approx(arc, abs=ARC_FLOOR)
 
 
-def test_a_point_without_a_profile_keeps_the_arc_of_its_ends(data, tmp_path):
-    campaign = load_campaign(data / "campaign.h5")
-    bare = [
-        Row(
-            one,
-            0,
-            1,
-            {},
-            replace(
-                record(one.level, one.alpha, one.target),
-                pressure_angle=np.zeros(1),
-                pressure=np.zeros(1),
-            ),
-        )
-        for one in campaign.design.configurations()
-    ]
-    write_campaign(tmp_path / "bare.h5", campaign.design, bare)
-    points = points_of(load_campaign(tmp_path / "bare.h5"))
-    arc = truth(points.g, points.alpha)[0]
-    assert points.arc == pytest.approx(arc, rel=1e-3)
-
-
 @pytest.mark.parametrize("nodes", [60, 96])
 @pytest.mark.parametrize("shift", [0.1, 0.5, 0.9])
 def test_ends_of_an_arc_between_nodes(nodes, shift):
@@ -232,11 +209,12 @@ def test_ends_of_an_arc_between_nodes(nodes, shift):
     theta = 0.8 + step * (shift + np.arange(nodes))
     theta = theta[theta < 2.2]
     pressure = np.sqrt((theta - 0.8) * (2.2 - theta))
-    assert arc_length(theta, pressure) == pytest.approx(np.cos(0.8) - np.cos(2.2), abs=0.1 * step)
+    assert contact_ends(theta, pressure) == pytest.approx((0.8, 2.2), abs=0.1 * step)
 
 
-def test_an_arc_of_few_nodes_has_no_length():
-    assert np.isnan(arc_length(np.array([0.5, 0.6, np.nan]), np.array([1.0, 1.0, np.nan])))
+def test_an_arc_of_one_node_has_no_ends():
+    assert np.isnan(contact_ends(np.array([0.5]), np.array([1.0]))).all()
+    assert contact_ends(np.array([0.5, 0.6]), np.zeros(2)) == (0.5, 0.6)
 
 
 def test_summaries():

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arc_length"]
+__all__ = ["contact_ends"]
 
 Floats = NDArray[np.float64]
 
@@ -19,33 +19,29 @@ Floats = NDArray[np.float64]
 _NODES, _DEGREE, _FARTHEST = 10, 2, 2.5
 
 
-def arc_length(theta: Floats, pressure: Floats) -> float:
-    """Return A = cos theta_1 - cos theta_2 of a pressure profile.
+def contact_ends(theta: Floats, pressure: Floats) -> tuple[float, float]:
+    """Return theta_1 and theta_2, where the contact pressure vanishes.
 
     Parameters
     ----------
     theta, pressure : ndarray, shape (nodes,)
-        Angles from the cutting direction, rising [rad], and pressures there; nan at the end is
-        left out.
+        Angles from the cutting direction, rising [rad], and pressures there.
 
     Returns
     -------
-    float
-        A [-]; nan with too few nodes.
+    tuple of float
+        The first one is not negative [rad]; nan with fewer than two nodes.
 
     Examples
     --------
     >>> theta = np.linspace(0.81, 2.19, 60)
-    >>> pressure = np.sqrt((theta - 0.8) * (2.2 - theta))
-    >>> print(f"{arc_length(theta, pressure):.3f} {np.cos(0.8) - np.cos(2.2):.3f}")
-    1.284 1.285
+    >>> ends = contact_ends(theta, np.sqrt((theta - 0.8) * (2.2 - theta)))
+    >>> print("{:.3f} {:.3f}".format(*ends))
+    0.800 2.200
     """
-    known = np.isfinite(theta) & np.isfinite(pressure)
-    theta, pressure = theta[known].astype(float), pressure[known].astype(float)
-    if len(theta) < _NODES:
-        return float("nan")
-    first, last = _end(theta, pressure), _end(theta[::-1], pressure[::-1])
-    return float(np.cos(max(first, 0.0)) - np.cos(last))
+    if len(theta) < 2:
+        return np.nan, np.nan
+    return max(_end(theta, pressure), 0.0), _end(theta[::-1], pressure[::-1])
 
 
 def _end(theta: Floats, pressure: Floats) -> float:
@@ -53,6 +49,7 @@ def _end(theta: Floats, pressure: Floats) -> float:
     square = pressure[:_NODES] ** 2
     if not np.max(square) > 0.0:
         return float(theta[0])
-    beyond = np.polyfit(square / np.max(square), theta[:_NODES] - theta[0], _DEGREE)[-1]
+    degree = min(_DEGREE, len(square) - 1)
+    beyond = np.polyfit(square / np.max(square), theta[:_NODES] - theta[0], degree)[-1]
     farthest = _FARTHEST * abs(theta[1] - theta[0])
     return float(theta[0] + np.clip(beyond, -farthest, farthest))
