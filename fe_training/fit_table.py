@@ -14,7 +14,7 @@ __all__ = ["fit_table"]
 
 Floats = NDArray[np.float64]
 
-SHORT, PAST, STIFFENING = 36, 24, 60
+SHORT, PAST, STIFFENING = 56, 26, 48
 
 
 def fit_table(

@@ -3,8 +3,8 @@
 With y = 1 - 2/alpha, which is 0 for a neo-Hookean solid, and A_w, B_w and delta_w of the far-field
 wedge (`surrogate.wedge`),
 
-    A = 2 sin[A_w(g_A)/2] {1 - d exp[-ln^2(g/g_d)/2]},   g_A = g/(1 + g/s),
-    ln s = a_1 + a_2 y,   d = a_3 + a_4 y,   ln g_d = a_5 + a_6 y,
+    A = (2/k) sin[k A_w(g_A)/2] {1 - d exp[-ln^2(g/g_d)/2]},   g_A = g/[1 + (g/s)^2]^(1/2),
+    k^2 = 1 + a_1 (alpha^2 - 4),   ln s = a_2 + a_3 y,   d = a_4 (1 - y),   ln g_d = a_5 + a_6 y,
 
     B = B_w(g_B) + b g^n,   g_B = g/(1 + g/e^b_1),
     ln b = b_2 + b_3 y + b_4 y^2,   n = b_5 + b_6 y,
@@ -13,8 +13,9 @@ wedge (`surrogate.wedge`),
     c = c_1 + c_2 y,   q = c_3 + c_4 y.
 
 As g goes to 0, A and B become those of the wedge; 2 sin(A_w/2) is the arc whose chord has the
-width of the contact. As g grows, the wedge saturates: A becomes constant, B the power law of
-Eq. (9). The dip of A between is that of small alpha, where the tip wraps the wire.
+width of the contact, and k lets a solid that stiffens be indented less deeply. As g grows, the
+wedge saturates: A becomes constant, B the power law of Eq. (9). The dip of A between is that of
+small alpha, where the tip wraps the wire.
 """
 
 from __future__ import annotations
@@ -72,23 +73,27 @@ class BlendModel(FittedModel):
 
 def arc_formula(a: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
     """Return A and its derivatives by ln g and y."""
-    at, left = _saturated(log_g, a[0] + a[1] * y)
-    half = 0.5 * _wedge("arc", at)
-    sine = 2.0 * _sin(half)
-    in_at = half * _tan_inverse(half) * wedge_slopes(at)["arc"]
-    depth, x = a[2] + a[3] * y, log_g - (a[4] + a[5] * y)
+    at, left = _saturated(log_g, a[1] + a[2] * y, 2.0)
+    alpha = 2.0 / (1.0 - y)
+    k = _root(1.0 + a[0] * (alpha * alpha - 4.0))
+    angle = 0.5 * k * _wedge("arc", at)
+    sine = 2.0 * _sin(angle) / k
+    swell = angle * _tan_inverse(angle)  # d ln sine/d ln angle
+    in_at = swell * wedge_slopes(at)["arc"]
+    in_k = (swell - 1.0) * 0.5 * a[0] * alpha**3 / (k * k)
+    depth, x = a[3] * (1.0 - y), log_g - (a[4] + a[5] * y)
     bell = exp(-0.5 * x * x)
     dip = 1.0 - depth * bell
     return (
         sine * dip,
         sine * (in_at * left * dip + depth * bell * x),
-        sine * (in_at * (1.0 - left) * a[1] * dip - bell * (a[3] + depth * x * a[5])),
+        sine * ((in_at * (1.0 - left) * a[2] + in_k) * dip + bell * (a[3] - depth * x * a[5])),
     )
 
 
 def load_formula(b: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
     """Return B and its derivatives by ln g and y."""
-    at, left = _saturated(log_g, b[0])
+    at, left = _saturated(log_g, b[0], 1.0)
     far = _wedge("normal_load", at)
     n = b[4] + b[5] * y
     power = exp(b[1] + y * (b[2] + y * b[3]) + n * log_g)
@@ -118,14 +123,18 @@ def distance_formula(c: Constants, log_g: Any, y: Any, touch: Any) -> tuple[Any,
     )
 
 
-def _saturated(log_g: Any, log_end: Any) -> tuple[Any, Any]:
-    """Return ln of g/(1 + g/end) and its derivative by ln g."""
-    left = 1.0 / (1.0 + exp(log_g - log_end))
-    return log_g + log(left), left
+def _saturated(log_g: Any, log_end: Any, power: float) -> tuple[Any, Any]:
+    """Return ln of g/[1 + (g/end)^power]^(1/power) and its derivative by ln g."""
+    left = 1.0 / (1.0 + exp(power * (log_g - log_end)))
+    return log_g + log(left) / power, left
 
 
 def _wedge(name: str, log_g: Any) -> Any:
     return wedge_functions(log_g, wedge_load(log_g))[name]
+
+
+def _root(x: Any) -> Any:
+    return np.sqrt(x) if isinstance(x, np.ndarray) else float(np.sqrt(x))
 
 
 def _sin(x: Any) -> Any:

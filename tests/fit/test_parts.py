@@ -211,7 +211,9 @@ def test_the_formula_has_twelve_constants_and_the_limits_it_claims(installed):
     )
     wedge = wedge_functions(np.log(1e-12), wedge_load(np.log(1e-12)))
     assert wide.normal_load(1e-12, 3.0) == pytest.approx(wedge["normal_load"], rel=1e-3)
-    assert wide.arc(1e-12, 3.0) == pytest.approx(2.0 * np.sin(wedge["arc"] / 2.0), rel=1e-3)
+    k = np.sqrt(1.0 + 5.0 * model.constants["arc"][0])  # alpha = 3
+    chord = 2.0 / k * np.sin(k * wedge["arc"] / 2.0)
+    assert wide.arc(1e-12, 3.0) == pytest.approx(chord, rel=1e-3)
     n = model.constants["normal_load"][4] + model.constants["normal_load"][5] / 3.0  # alpha = 3
     steep = np.log(wide.normal_load(1e9, 3.0) / wide.normal_load(1e8, 3.0)) / np.log(10.0)
     assert steep == pytest.approx(n, abs=1e-2)
