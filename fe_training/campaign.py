@@ -247,12 +247,7 @@ def run_task(
 
 def _asked_for(record: Record, passed: Sequence[Configuration]) -> Configuration:
     """Return the configuration that a record answers."""
-    target = getattr(record, "target", math.nan)
-    if not math.isfinite(target):
-        target = record.energy_release_rate
-    if not math.isfinite(target):
-        return passed[0]
-    return min(passed, key=lambda one: abs(math.log(one.target / target)))
+    return min(passed, key=lambda one: abs(math.log(one.target / record.target)))
 
 
 def _use_one_thread() -> None:

@@ -230,7 +230,8 @@ def _promises(found: Validation) -> str:
 def _formula(fitted: Fitted) -> Iterable[str]:
     yield (
         "With y = 1 - 2/alpha and the wedge's A_w(g), B_w(g), delta_w(g) of `surrogate.wedge`:\n\n"
-        "    A = (2/k) sin[k A_w(g_A)/2] {1 - d exp[-ln^2(g/g_d)/2]},  g_A = g/[1 + (g/s)^2]^(1/2)\n"
+        "    A = (2/k) sin[k A_w(g_A)/2] {1 - d exp[-ln^2(g/g_d)/2]}\n"
+        "    g_A = g/[1 + (g/s)^2]^(1/2)\n"
         "    k^2 = 1 + a_1 (alpha^2 - 4),  ln s = a_2 + a_3 y,  d = a_4 (1 - y)\n"
         "    ln g_d = a_5 + a_6 y\n\n"
         "    B = B_w(g/(1 + g/e^b_1)) + b g^n\n"
