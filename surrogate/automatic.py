@@ -60,8 +60,8 @@ def automatic_terms(
     mu, gamma, radius, xi, wear, alpha = (
         np.array(np.broadcast_to(v, shape), dtype=float).ravel() for v in values
     )
-    g = quotient(gamma, mu, radius)
     with np.errstate(all="ignore"):
+        g = quotient(gamma, mu, radius)
         free = FORCE_MODELS["eq13"].terms(mu, gamma, radius, xi, wear, alpha)
     friction, worn = (np.array(term, dtype=float) for term in np.broadcast_arrays(*free))
     matters = (friction > 0.0) | (worn > 0.0)

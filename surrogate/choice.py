@@ -20,13 +20,11 @@ from surrogate.errors import AccuracyError
 from surrogate.fitted import Fitted, shipped
 from surrogate.force_models import FORCE_MODELS, ForceModel
 from surrogate.quantities import QUANTITIES
-from surrogate.validation import SMALLEST, Quantity, one_number
+from surrogate.validation import RTOL, one_number
 
 __all__ = ["RTOL", "Chosen", "available", "bounded", "choose_contact", "choose_terms"]
 
 Array = NDArray[np.float64]
-
-RTOL = Quantity("rtol", "", "give the relative error that will do, such as 0.02", lower=SMALLEST)
 
 FREE = "eq13"
 NEGLIGIBLE = 0.25  # share of rtol up to which a term's own error is left alone

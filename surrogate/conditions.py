@@ -26,15 +26,15 @@ def always(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
 
 
 def high_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    """Gamma_o >> mu R_w, and Gamma_o > 0: Eqs. (9) and (10)."""
+    """Hold where Gamma_o >> mu R_w, and Gamma_o > 0: Eqs. (9) and (10)."""
     return (gamma >= MUCH_GREATER * (mu * radius)) & (gamma > 0.0)
 
 
 def low_toughness(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    """Gamma_o <= mu R_w: Eq. (12)."""
+    """Hold where Gamma_o <= mu R_w: Eq. (12)."""
     return gamma <= mu * radius
 
 
 def friction_free(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:
-    """xi << 1 and xi mu << tau_w, or no friction at all: Eq. (15)."""
+    """Hold where xi << 1 and xi mu << tau_w, or xi = 0: Eq. (15)."""
     return (MUCH_GREATER * xi <= 1.0) & (MUCH_GREATER * (xi * mu) <= wear) | (xi == 0.0)

@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from surrogate.elementwise import apply
 from surrogate.errors import DomainError
 from surrogate.force_models import ForceModel, force_model
+from surrogate.options import flag
 from surrogate.quantities import QUANTITIES
 from surrogate.records import Record
-from surrogate.validation import FloatOrArray, Quantity, broadcast_shape
+from surrogate.validation import RTOL, FloatOrArray, Quantity, broadcast_shape, one_number
 
 __all__ = ["ContactFunctions", "contact_functions", "energy_release_rate"]
 
-RTOL = 0.02
+DEFAULT_RTOL = 0.02
 _FLOATS = ("arc", "normal_load", "delta", "arc_std", "normal_load_std", "delta_std")
 
 DISTANCE = Quantity(
@@ -131,15 +132,17 @@ def contact_functions(
     >>> print(contact.normal_load, contact.delta)
     [2.02 4.  ] [5. 1.]
     """
-    if model == "auto":
+    extrapolate = flag("extrapolate", extrapolate)
+    tolerance = None if rtol is None else one_number(RTOL, rtol)
+    if isinstance(model, str) and model == "auto":
         values = _points(force_model("table"), g, alpha, extrapolate)
-        return _automatic(values, RTOL if rtol is None else rtol)
+        return _automatic(values, DEFAULT_RTOL if tolerance is None else tolerance)
     chosen = force_model(model)
     values = _points(chosen, g, alpha, extrapolate)
-    if rtol is not None:
+    if tolerance is not None:
         from surrogate.automatic import require_accuracy
 
-        require_accuracy(chosen, *values, rtol)
+        require_accuracy(chosen, *values, tolerance)
     return _evaluated(chosen, values)
 
 
@@ -231,6 +234,7 @@ def energy_release_rate(
     >>> print(f"{energy_release_rate(5.0, 2.0, model='eq13'):.4f}")
     0.0400
     """
+    extrapolate = flag("extrapolate", extrapolate)
     chosen = force_model(model)
     _, in_alpha = chosen.accepted(extrapolate)
     values = DISTANCE.checked(delta), replace(in_alpha, name="alpha").checked(alpha)

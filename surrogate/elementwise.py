@@ -30,6 +30,7 @@ __all__ = [
     "evaluate_checked",
     "exp",
     "log",
+    "over_sum",
     "product",
     "proportion",
     "quotient",
@@ -44,6 +45,7 @@ Kernel: TypeAlias = Callable[..., Any]
 WHOLE = 2**20  # results up to this size are computed at once, in which numpy is quickest
 BLOCK = 2**16  # larger ones this many numbers at a time, to save memory
 NORMAL = sys.float_info.min  # smaller numbers have lost digits
+NO_POWER = -99999  # power of two of zero: less than any product of a few numbers has
 
 
 def evaluate(
@@ -195,15 +197,46 @@ def scaled(factors: tuple[Any, ...], divisors: tuple[Any, ...]) -> Any:
 
     Significands and exponents go separate ways until the last step.
     """
-    significand: Any = 1.0
-    exponent: Any = 0
     with np.errstate(all="ignore"):
-        for factor in reversed(factors):  # the order in which `product` rounds
-            fraction, power = np.frexp(factor)
-            significand, exponent = fraction * significand, exponent + power
+        significand, exponent = _significand_and_power(factors)
         below: Any = 1.0
         for divisor in divisors:
             fraction, power = np.frexp(divisor)
             below, exponent = below * np.abs(fraction), exponent - power
         result = np.ldexp(significand / below, exponent)
     return result if isinstance(result, np.ndarray) else float(result)
+
+
+def over_sum(factors: tuple[Any, ...], terms: tuple[tuple[Any, ...], ...]) -> Any:
+    """Return the product of non-negative factors over a sum of such products.
+
+    Only the end can overflow. Infinite where only the sum is 0, nan where both are.
+
+    Examples
+    --------
+    >>> print(over_sum((1e300, 1e-300), ((1e300, 1e300), (2e300, 1e300))))
+    0.0
+    >>> print(f"{over_sum((1e300, 1e300), ((1e300, 1e300), (3e300, 1e300))):.3f}")
+    0.250
+    """
+    with np.errstate(all="ignore"):
+        parts = [_significand_and_power(term) for term in terms]
+        top: Any = NO_POWER
+        for part, power in parts:
+            top = np.maximum(top, np.where(part, power, NO_POWER))
+        below: Any = 0.0
+        for part, power in parts:
+            below = below + np.abs(np.ldexp(part, power - top))  # -0.0 is 0
+        significand, exponent = _significand_and_power(factors)
+        result = np.ldexp(significand / below, exponent - top)
+    return result if isinstance(result, np.ndarray) else float(result)
+
+
+def _significand_and_power(factors: tuple[Any, ...]) -> tuple[Any, Any]:
+    """Return a product as a number of moderate size and the power of two to multiply it by."""
+    significand: Any = 1.0
+    exponent: Any = 0
+    for factor in reversed(factors):  # the order in which `product` rounds
+        fraction, power = np.frexp(factor)
+        significand, exponent = fraction * significand, exponent + power
+    return significand, exponent

@@ -29,6 +29,7 @@ __all__ = [
     "new_axes",
     "new_figure",
     "picture_file",
+    "require_axes",
     "require_matplotlib",
     "save_figure",
     "write_svg",
@@ -102,6 +103,28 @@ def new_axes(size: tuple[float, float]) -> Axes:
     import matplotlib.pyplot as plt
 
     return plt.subplots(figsize=size, layout="constrained")[1]
+
+
+def require_axes(ax: object) -> Axes:
+    """Return axes of matplotlib, or raise an `InputError` that says what is one.
+
+    Examples
+    --------
+    >>> require_axes("left")
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: ax must be axes of matplotlib, but ax = 'left' (str); give for \
+instance figure.add_subplot(), or None for a new figure.
+    """
+    require_matplotlib()
+    from matplotlib.axes import Axes
+
+    if isinstance(ax, Axes):
+        return ax
+    raise InputError(
+        f"ax must be axes of matplotlib, but ax = {shown(ax)} ({type(ax).__name__}); give for "
+        "instance figure.add_subplot(), or None for a new figure."
+    )
 
 
 def figure_width(width: object) -> float:

@@ -139,6 +139,12 @@ class FittedModel(ForceModel):
 
     def slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
         """Return the derivatives of A or B by g and alpha; infinite in g where g is 0."""
+        if type(g) is float and type(alpha) is float:
+            return self._slopes(name, g, alpha)
+        in_g, in_alpha = in_blocks(lambda *at: self._slopes(name, *at), 2, g, alpha)
+        return in_g, in_alpha
+
+    def _slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
         log_g, log_alpha = log(g), log(alpha)
         at, row = self.limits.clamped(log_g, log_alpha)
         value, in_g, in_alpha = self.inside_slopes(name, at, row)
@@ -158,11 +164,11 @@ class FittedModel(ForceModel):
                 in_alpha * (p / seam),
                 where(log_g > high, in_alpha + bend * over, in_alpha),
             )
-            there = self.contact((name,), g, alpha)[0]
+            there = self._contact((name,), g, alpha)[0]
             first, last = self.limits.log_alpha
             in_alpha = where((log_alpha >= first) & (log_alpha <= last), in_alpha, 0.0)
             by_g = where(g == 0.0, np.inf, there * in_g / where(g == 0.0, 1.0, g))
-            return by_g, there * in_alpha / alpha
+            return by_g, where(in_alpha == 0.0, 0.0, there * in_alpha / alpha)  # B may be infinite
 
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         g = quotient(gamma, mu, radius)
@@ -201,7 +207,7 @@ def _any(condition: Any) -> bool:
     return condition if type(condition) is bool else bool(np.any(condition))
 
 
-def in_blocks(function: Callable[..., list[Any]], number: int, g: Any, alpha: Any) -> list[Any]:
+def in_blocks(function: Callable[..., Sequence[Any]], number: int, g: Any, alpha: Any) -> list[Any]:
     """Return a number of functions at points, so many at a time that they stay in the cache."""
     shape = np.broadcast_shapes(np.shape(g), np.shape(alpha))
     one_alpha = type(alpha) is float or np.ndim(alpha) == 0

@@ -13,9 +13,17 @@ from surrogate.elementwise import apply, evaluate_checked
 from surrogate.equations import RELATIVE_WEAR_STRENGTH
 from surrogate.force_models import FITTED_NAMES, force_model
 from surrogate.inside import require_inside
+from surrogate.options import flag
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
-from surrogate.validation import FRICTION_COEFFICIENT, FloatOrArray, Quantity, broadcast_shape
+from surrogate.validation import (
+    FRICTION_COEFFICIENT,
+    RTOL,
+    FloatOrArray,
+    Quantity,
+    broadcast_shape,
+    one_number,
+)
 
 __all__ = ["AUTO", "CuttingForce", "cutting_force", "dissipative_force"]
 
@@ -98,7 +106,8 @@ def cutting_force(
     Raises
     ------
     InputError
-        If `scene` is not a `Scene`, or a fitted model's file is missing or damaged.
+        If `scene` is not a `Scene`, `rtol` not a positive number, `extrapolate` not True or False,
+        or a fitted model's file is missing or damaged.
     UnknownModelError
         If there is no such model.
     DomainError
@@ -132,6 +141,7 @@ def cutting_force(
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
+    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     if isinstance(model, str) and model == AUTO:
         require_scene(scene)
         return _automatic(scene, rtol, extrapolate)
@@ -225,6 +235,7 @@ def dissipative_force(
     >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
     1.5136
     """
+    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     values = (g, alpha, friction_coefficient, relative_wear_strength)
     automatic = isinstance(model, str) and model == AUTO
     chosen = force_model("table" if automatic else model)

@@ -274,7 +274,7 @@ FITTED_NAMES = ("power-law", "table", "gp")
 """The models fitted to finite-element solutions, in rising order of cost."""
 
 
-def force_model(name: object) -> ForceModel:
+def force_model(name: object, argument: str = "model") -> ForceModel:
     """Return the model of that name.
 
     Raises
@@ -291,6 +291,6 @@ def force_model(name: object) -> ForceModel:
 
         return shipped().models[name]
     raise UnknownModelError(
-        f"model must be the name of a model, but model = {shown(name)}; "
+        f"{argument} must be the name of a model, but {argument} = {shown(name)}; "
         f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES))}."
     )

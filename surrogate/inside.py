@@ -34,7 +34,8 @@ def require_inside(model: ForceModel, values: tuple[FloatOrArray, ...]) -> None:
         If g or alpha is outside; the message says where, and from which quantities g follows.
     """
     mu, gamma, radius, xi, wear, alpha = values
-    g = quotient(gamma, mu, radius)
+    with np.errstate(all="ignore"):  # an infinite g is outside
+        g = quotient(gamma, mu, radius)
     inside = model.holds(g, alpha)
     if inside is True or np.all(inside | (np.equal(xi, 0.0) & np.equal(wear, 0.0))):
         return

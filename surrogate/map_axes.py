@@ -166,7 +166,7 @@ def map_axis(name: str, limits: object, scale: str, nodes: int) -> MapAxis:
         for the nodes and, on a log scale, positive; or if the scale is neither "log" nor "linear".
     """
     chosen = coordinate(name)
-    if scale not in ("log", "linear"):
+    if not isinstance(scale, str) or scale not in ("log", "linear"):
         raise InputError(
             f"the scale of {chosen.name} must be 'log' or 'linear', but is {shown(scale)}; "
             "choose one of them."

@@ -19,10 +19,11 @@ from surrogate.force import CuttingForce, cutting_force
 from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
 from surrogate.map_axes import MapAxis
 from surrogate.map_scene import Monomial
+from surrogate.options import items
 from surrogate.regimes import CONTACTS, SPLIT_MODEL, TOUCHING_TOUGHNESS, touching_toughness
 from surrogate.scene import Scene
 
-__all__ = ["LIMITS", "MapTerms", "boundaries", "formula_name"]
+__all__ = ["LIMITS", "MapTerms", "boundaries", "formula_name", "limit_names"]
 
 Array = NDArray[np.float64]
 Sum = tuple[Monomial, ...]
@@ -77,6 +78,27 @@ class MapTerms:
         return contours(whole, level, self.x, self.y)
 
 
+def limit_names(limits: object) -> tuple[str, ...]:
+    """Return validated names of models whose limits are wanted.
+
+    Raises
+    ------
+    InputError
+        If `limits` is no list.
+    UnknownModelError
+        If a limit is no model.
+
+    Examples
+    --------
+    >>> limit_names(["eq13"])
+    ('eq13',)
+    """
+    names = items("limits", limits, "['high-toughness']")
+    for name in names:
+        force_model(name, "a name in limits")
+    return names
+
+
 def boundaries(
     terms: MapTerms, threshold: float, limits: tuple[str, ...], miss: float
 ) -> tuple[Boundary, ...]:
@@ -84,13 +106,9 @@ def boundaries(
 
     Raises
     ------
-    UnknownModelError
-        If a limit is no model.
     WirecutError
         If contours are needed and contourpy is not installed.
     """
-    for limit in limits:
-        force_model(limit)
     found = [
         *_equal_terms(terms),
         *_dominance(terms, threshold),

@@ -7,8 +7,16 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from surrogate.errors import InputError
-from surrogate.figures import figure_width, new_axes, new_figure, picture_file, save_figure
+from surrogate.figures import (
+    figure_width,
+    new_axes,
+    new_figure,
+    picture_file,
+    require_axes,
+    save_figure,
+)
 from surrogate.force_models import force_model
+from surrogate.map_boundaries import limit_names
 from surrogate.map_drawing import (
     bars,
     draw_boundaries,
@@ -23,6 +31,7 @@ from surrogate.map_labels import add_legend, name_regions
 from surrogate.map_points import MapPoints, places
 from surrogate.map_style import FILLS, LIMIT_LINES, NAMES, POINT_MARKERS
 from surrogate.maps import RegimeMap
+from surrogate.options import flag, items
 from surrogate.validation import shown
 
 if TYPE_CHECKING:
@@ -79,10 +88,10 @@ def plot_regime_map(
     Raises
     ------
     InputError
-        If `made` is no map, the width has no such name, a limit has no line of that name, or a
-        point is outside the map.
+        If `made` is no map, the width has no such name, a limit has no line of that name, a point
+        is outside the map, or an argument of another kind than is asked for.
     UnknownModelError
-        If there is no model `error_of`.
+        If there is no model `error_of`, or a limit is none.
     WirecutError
         If matplotlib is not installed.
 
@@ -101,9 +110,9 @@ def plot_regime_map(
     """
     size = (figure_width(width), _HEIGHTS[width])
     wanted = _checked(made, limits, error_of)
-    located = [(one, *places(one, made)) for one in points]
-    if ax is None:
-        ax = new_axes(size)
+    contact = flag("contact", contact)
+    located = [(one, *places(one, made)) for one in _map_points(points)]
+    ax = new_axes(size) if ax is None else require_axes(ax)
     set_up(ax, made)
     if error_of is None:
         fill_regions(ax, made)
@@ -166,20 +175,31 @@ def save_regime_map(
     save_figure(figure, file)
 
 
-def _checked(made: object, limits: Sequence[str], error_of: str | None) -> set[str]:
+def _checked(made: object, limits: object, error_of: object) -> set[str]:
     if not isinstance(made, RegimeMap):
         raise InputError(
             f"a map must be what regime_map returned, but is {shown(made)} "
             f"({type(made).__name__}); give regime_map(x, y, ranges, fixed, model)."
         )
     known = [one.about[0] for one in made.boundaries if one.kind == "limit"]
-    for limit in limits:
-        force_model(limit)
+    names = limit_names(limits)
+    for limit in names:
         if limit not in LIMIT_LINES:
             raise InputError(
-                f"a limit must be one of {', '.join(LIMIT_LINES)}, but is {shown(limit)}; "
+                f"limits must be some of {', '.join(LIMIT_LINES)}, but one is {shown(limit)}; "
                 f"this map has {', '.join(known) or 'none'}."
             )
     if error_of is not None:
-        force_model(error_of)
-    return set(limits)
+        force_model(error_of, "error_of")
+    return set(names)
+
+
+def _map_points(points: object) -> tuple[MapPoints, ...]:
+    found = items("points", points, "[MapPoints(scene, 'gel')]")
+    for one in found:
+        if not isinstance(one, MapPoints):
+            raise InputError(
+                f"points must be MapPoints, but one is {shown(one)} ({type(one).__name__}); give "
+                "for instance [MapPoints(scene, 'gel')]."
+            )
+    return found

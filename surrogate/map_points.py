@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.errors import InputError
+from surrogate.options import mapping, text
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 from surrogate.validation import Quantity, broadcast_shape, shown
 
@@ -39,8 +40,8 @@ class MapPoints:
     Raises
     ------
     InputError
-        If `scene` is no `Scene`, or an error is not that of one of its quantities, negative or no
-        number.
+        If `scene` is no `Scene`, `label` no text, `std` no mapping, or an error is not that of one
+        of its quantities, negative or no number.
 
     Examples
     --------
@@ -55,7 +56,8 @@ class MapPoints:
 
     def __post_init__(self) -> None:
         require_scene(self.scene, "the scene of map points")
-        for name, value in self.std.items():
+        text("the label of map points", self.label, "give the name in the legend")
+        for name, value in mapping("std", self.std, "{'toughness': 0.2}").items():
             if name not in NAMES:
                 raise InputError(
                     f"std must name quantities of the scene, but names {shown(name)}; choose "

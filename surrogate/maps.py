@@ -16,8 +16,9 @@ from surrogate.elementwise import ratio
 from surrogate.errors import InputError
 from surrogate.force import CuttingForce, cutting_force
 from surrogate.map_axes import MapAxis, coordinate, map_axis
-from surrogate.map_boundaries import LIMITS, MapTerms, boundaries
+from surrogate.map_boundaries import LIMITS, MapTerms, boundaries, limit_names
 from surrogate.map_scene import Monomial, resolve
+from surrogate.options import mapping
 from surrogate.regimes import DOMINANT_SHARE, Regime, classify, term_shares
 from surrogate.scene import NAMES, Scene, require_scene
 from surrogate.validation import SMALLEST, Quantity, one_number, shown
@@ -270,9 +271,10 @@ def regime_map(
     Raises
     ------
     InputError
-        If a coordinate is unknown, given twice, missing or out of range.
+        If a coordinate is unknown, given twice, missing or out of range, or an argument of another
+        kind than is asked for.
     UnknownModelError
-        If there is no such model.
+        If there is no such model, or limit.
     DomainError
         If the model has no answer at a node.
     AccuracyError
@@ -315,12 +317,12 @@ def regime_map(
     given = _given(fixed)
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = _scene(quantities, axes[0].values, axes[1].values[:, np.newaxis])
-    share = one_number(MISS, miss)
+    share, wanted = one_number(MISS, miss), limit_names(limits)
     force = cutting_force(scene, model, rtol, extrapolate=True)
     regime = classify(scene, threshold, model, rtol, extrapolate=True)
     shares = term_shares(scene, force, model)
     terms = MapTerms(axes[0], axes[1], quantities, scene, model, force, shares)
-    made = boundaries(terms, regime.threshold, tuple(limits), share)
+    made = boundaries(terms, regime.threshold, wanted, share)
     return RegimeMap(
         axes[0],
         axes[1],
@@ -363,13 +365,8 @@ def _pairs(ranges: object, scales: object) -> list[tuple[Any, Any]]:
 def _given(fixed: object) -> dict[str, float]:
     if fixed is None:
         return {}
-    if not isinstance(fixed, Mapping):
-        raise InputError(
-            f"fixed must map names to values, but is {shown(fixed)}; give for instance "
-            "{'shear_modulus': 685.0}."
-        )
     given: dict[str, float] = {}
-    for name, value in fixed.items():
+    for name, value in mapping("fixed", fixed, "{'shear_modulus': 685.0}").items():
         one = coordinate(name)
         if one.name in given:
             raise InputError(f"{one.name} must be given once, but is fixed twice; drop one.")

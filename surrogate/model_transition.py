@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.elementwise import quotient
+from surrogate.elementwise import apply, over_sum, quotient
 from surrogate.errors import DomainError
 from surrogate.force_models import ClosedForm, ForceModel
 from surrogate.narrowing import narrowed
@@ -78,17 +78,19 @@ def transition_under(chosen: ForceModel, quantities: tuple[FloatOrArray, ...]) -
 
 
 def _of_closed_form(chosen: ClosedForm, mu: Any, gamma: Any, xi: Any, wear: Any) -> FloatOrArray:
-    with np.errstate(all="ignore"):
-        constant = gamma + chosen.load_2_slope * (xi * gamma)
-        slope = chosen.load_2 * (xi * mu) + chosen.arc_2 * wear
-        radius = quotient(constant, 1.0, np.abs(slope))  # -0.0 is 0
-    return np.asarray(radius) if np.ndim(radius) else float(radius)
+    weight = chosen.load_2_slope
+
+    def radius(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
+        stress = (chosen.load_2, xi, mu), (chosen.arc_2, wear)
+        return over_sum((gamma, 1.0 + weight * xi), stress)
+
+    return apply(radius, (mu, gamma, xi, wear))  # type: ignore[no-any-return]
 
 
 def _radii(
     chosen: ForceModel, mu: Array, gamma: Array, xi: Array, wear: Array, alpha: float
 ) -> Array:
-    acts = (wear > 0.0) | (xi * mu > 0.0)
+    acts = (wear > 0.0) | ((xi > 0.0) & (mu > 0.0))
     radius = np.where(acts, 0.0, np.inf)  # of no toughness, and of nothing else
     radius[~acts & (gamma == 0.0)] = np.nan
     rows = np.flatnonzero(acts & (gamma > 0.0))

@@ -22,11 +22,13 @@ from surrogate.figures import (
     new_axes,
     new_figure,
     picture_file,
+    require_axes,
     save_figure,
 )
 from surrogate.force_models import force_model
 from surrogate.identification import Identification
 from surrogate.linear_fit import is_linear
+from surrogate.options import text
 from surrogate.profile_plot import plot_profile
 from surrogate.validation import TOUGHNESS, one_number, shown
 
@@ -73,7 +75,8 @@ def plot_identification(
     Raises
     ------
     InputError
-        If `identification` is not one, or the toughness not a number of 0 or more.
+        If `identification` is not one, the toughness not a number of 0 or more, `ax` no axes, or
+        the label no text.
     WirecutError
         If matplotlib is not installed.
 
@@ -90,15 +93,11 @@ def plot_identification(
     >>> ax.get_xlabel()
     'wire radius $R_w$ [mm]'
     """
-    if not isinstance(identification, Identification):
-        raise InputError(
-            f"identification must be what identify returned, but is {shown(identification)} "
-            f"({type(identification).__name__}); give identify(wire_radius, force, shear_modulus)."
-        )
+    _require_identification(identification)
     if pure_shear_toughness is not None:
         pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
-    if ax is None:
-        ax = new_axes(SINGLE_COLUMN)
+    text("force_label", force_label, "give what the legend calls the forces")
+    ax = new_axes(SINGLE_COLUMN) if ax is None else require_axes(ax)
     radius = _drawn_radii(identification)
     handles = [
         _draw_measurements(ax, identification, force_label),
@@ -148,6 +147,7 @@ def save_identification(
     surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
     """
     file = picture_file(file)
+    _require_identification(identification)
     panels = 1 if identification.profile is None else 2
     figure = new_figure((SINGLE_COLUMN[0], panels * SINGLE_COLUMN[1]))
     if panels == 2:
@@ -159,6 +159,14 @@ def save_identification(
         force_label=force_label,
     )
     save_figure(figure, file)
+
+
+def _require_identification(value: object) -> None:
+    if not isinstance(value, Identification):
+        raise InputError(
+            f"identification must be what identify returned, but is {shown(value)} "
+            f"({type(value).__name__}); give identify(wire_radius, force, shear_modulus)."
+        )
 
 
 def _drawn_radii(fit: Identification) -> NDArray[np.float64]:

@@ -64,9 +64,9 @@ def friction_slopes(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> tu
         """Return the derivative by mu or R_w, the other one given."""
         with np.errstate(all="ignore"):
             steep = log(gamma) - log(divisor)
-            limit = xi * exp(n * steep - excess * log(other))  # 0 or infinite
-        size = where_normal(power, scaled((xi, gamma, power), (divisor,)), limit)
-        return where(no_change, 0.0, -excess * size)
+            limit = -excess * exp(n * steep - excess * log(other))  # 0 or infinite
+        slope = scaled((-excess, xi, gamma, power), (divisor,))
+        return where(no_change, 0.0, where_normal(power, slope, limit))
 
     with np.errstate(all="ignore"):
         bend = scaled((xi, gamma, power, log_g, table_1_slope(alpha)), ())

@@ -14,6 +14,7 @@ from surrogate.errors import InputError
 from surrogate.force import cutting_force
 from surrogate.force_models import ForceModel, force_model
 from surrogate.gradient import force_gradient
+from surrogate.options import mapping
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 from surrogate.validation import FloatOrArray, Quantity, broadcast_shape, one_number, shown
 
@@ -136,7 +137,7 @@ def propagate(
     require_scene(scene)
     chosen = force_model(model)
     errors = _checked(std)
-    rho = _correlation_matrix(list(errors), correlation or {})
+    rho = _correlation_matrix(list(errors), {} if correlation is None else correlation)
     gradient = force_gradient(scene, model)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
@@ -154,14 +155,10 @@ def propagate(
 
 
 def _checked(std: object) -> dict[str, FloatOrArray]:
-    if not isinstance(std, Mapping):
-        raise InputError(
-            f"std must be a mapping of names to standard errors, but std = {shown(std)} "
-            f"({type(std).__name__}); give for instance {{'toughness': 0.2}}."
-        )
-    for name in std:
+    given = mapping("std", std, "{'toughness': 0.2}")
+    for name in given:
         _check_name(name, NAMES, "std")
-    return {name: _STD[name].checked(std[name]) for name in NAMES if name in std}
+    return {name: _STD[name].checked(given[name]) for name in NAMES if name in given}
 
 
 def _check_name(name: object, names: tuple[str, ...] | list[str], where: str) -> None:
@@ -172,13 +169,14 @@ def _check_name(name: object, names: tuple[str, ...] | list[str], where: str) ->
         )
 
 
-def _correlation_matrix(names: list[str], correlation: Correlations) -> NDArray[np.float64]:
+def _correlation_matrix(names: list[str], correlation: object) -> NDArray[np.float64]:
     rho = np.eye(len(names))
-    for pair, value in correlation.items():
+    example = "{('toughness', 'wear_strength'): -0.9}"
+    for pair, value in mapping("correlation", correlation, example).items():
         if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(
                 f"correlation must be given for pairs, but has {shown(pair)}; "
-                "give for instance {('toughness', 'wear_strength'): -0.9}."
+                f"give for instance {example}."
             )
         for name in pair:
             _check_name(name, names, "correlation")
@@ -219,9 +217,22 @@ def _combined(
     largest = np.abs(stacked).max(axis=0)
     with np.errstate(all="ignore"):
         unit = np.where(largest > 0.0, stacked / largest, 0.0)
-        of_parameters = np.einsum("i...,ij,j...", unit[:-1], rho, unit[:-1])
-        std = largest * np.sqrt(np.maximum(of_parameters, 0.0) + unit[-1] ** 2)
+        of_parameters = _quadratic_form(rho, unit[:-1])
+        std = largest * np.sqrt(np.maximum(of_parameters, 0.0) + unit[-1] * unit[-1])
     return _number(np.where(np.isinf(largest), np.inf, std))
+
+
+def _quadratic_form(matrix: NDArray[np.float64], columns: Any) -> Any:
+    """Return the sum over i and j of matrix_ij columns_i columns_j, each point by itself.
+
+    Added in one order whatever the number of points, so that no bit depends on their company.
+    """
+    total: Any = 0.0
+    for i, one in enumerate(columns):
+        total = total + one * one
+        for j in range(i):
+            total = total + 2.0 * matrix[i, j] * (one * columns[j])
+    return total
 
 
 def _number(value: Any) -> FloatOrArray:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.elementwise import (
     all_normal,
     apply,
     evaluate_checked,
+    over_sum,
     quotient,
     where_normal,
 )
@@ -23,9 +23,6 @@ from surrogate.scene import Scene, require_scene
 from surrogate.validation import TOUGHNESS, WORK_OF_FRACTURE, FloatOrArray, defined
 
 __all__ = ["fracto_cohesive_transition_radius", "transition_radius", "wear_transition_radius"]
-
-NO_POWER = -9999
-"""Power of two of zero: less than any product of two numbers has."""
 
 
 def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
@@ -186,17 +183,8 @@ def _transition(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
     mean = (xi / (1.0 + xi)) * mu + wear / (1.0 + xi)
     if all_normal(mean):
         return _quarter(gamma, mean)
-    return where_normal(mean, _quarter(gamma, mean), _transition_of_any_size(mu, gamma, xi, wear))
-
-
-def _transition_of_any_size(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:
-    """Return the same from significands and exponents, of which only the result can underflow."""
-    (x, p), (m, q), (w, r), (g, s), (n, t) = map(np.frexp, (xi, mu, wear, gamma, 1.0 + xi))
-    with np.errstate(all="ignore"):
-        power = np.maximum(np.where(x * m, p + q, NO_POWER), np.where(w, r, NO_POWER))
-        stress = np.abs(np.ldexp(x * m, p + q - power) + np.ldexp(w, r - power))  # -0.0 is 0
-        radius = np.ldexp(g * n / stress, s + t - power - 2)
-    return radius if isinstance(radius, np.ndarray) else float(radius)
+    rescued = over_sum((0.25, gamma, 1.0 + xi), ((xi, mu), (wear,)))
+    return where_normal(mean, _quarter(gamma, mean), rescued)
 
 
 def _quarter(gamma: Any, stress: Any) -> Any:

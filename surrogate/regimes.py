@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from surrogate.elementwise import apply, product, ratio
 from surrogate.force import AUTO, CuttingForce, cutting_force
 from surrogate.force_models import force_model
+from surrogate.options import flag
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
-from surrogate.validation import ABOVE_HALF, FloatOrArray, Quantity, one_number
+from surrogate.validation import ABOVE_HALF, RTOL, FloatOrArray, Quantity, one_number
 
 __all__ = [
     "CONTACTS",
@@ -116,7 +117,8 @@ def classify(
     Raises
     ------
     InputError
-        If `scene` is not a `Scene`, or the threshold not a number above 0.5 and at most 1.
+        If `scene` is not a `Scene`, the threshold not a number above 0.5 and at most 1, `rtol` not
+        a positive number, or `extrapolate` not True or False.
     UnknownModelError
         If there is no such model.
     DomainError
@@ -144,6 +146,7 @@ def classify(
     """
     require_scene(scene)
     share = one_number(THRESHOLD, threshold)
+    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     split = isinstance(model, str) and model == SPLIT_MODEL
     terms: Any = (0.0, 0.0, 0.0)
     if not split:

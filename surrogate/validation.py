@@ -27,6 +27,7 @@ __all__ = [
     "ABOVE_HALF",
     "FRICTION_COEFFICIENT",
     "LARGEST",
+    "RTOL",
     "SHEAR_MODULUS",
     "SMALLEST",
     "STIFFENING_EXPONENT",
@@ -254,3 +255,4 @@ WORK_OF_FRACTURE = Quantity(
     "J/m^3",
     "give the strain energy density at tensile failure in joules a cubic metre",
 )
+RTOL = Quantity("rtol", "", "give the relative error that will do, such as 0.02", lower=SMALLEST)

@@ -226,7 +226,7 @@ def test_what_cannot_be_drawn_is_refused():
         plot_regime_map(1.6)
     with pytest.raises(InputError, match="'single' or 'double'"):
         draw(made, width="triple")
-    with pytest.raises(InputError, match="a limit must be one of high-toughness"):
+    with pytest.raises(InputError, match="limits must be some of high-toughness"):
         draw(made, limits=("eq9",))
     with pytest.raises(UnknownModelError, match="eq99"):
         draw(made, error_of="eq99")

@@ -247,7 +247,7 @@ def test_terms_that_are_equal_everywhere_have_no_line():
         (("g", "xi", ((1, 2), (1, 2)), {"g": 3}), "is an axis and fixed"),
         (("g", "mu", ((1, 2), (1, 2)), {"xi": 1, "friction_coefficient": 1}), "fixed twice"),
         (("g", "mu", ((1, 2), (1, 2)), {"R_w": -1}), "wire_radius"),
-        (("g", "mu", ((1, 2), (1, 2)), [1]), "fixed must map names"),
+        (("g", "mu", ((1, 2), (1, 2)), [1]), "fixed must be a mapping"),
         (("g", "tau_w/(xi mu)", ((1, 2), (1, 2)), {"xi": 0.0}), "must be positive where"),
         (("g", "mu", ((1e-300, 1e300), (1e-300, 1e300)), {"R_w": 1e-20}), "range of numbers"),
     ],

@@ -178,6 +178,57 @@ def test_slopes_at_the_touch_are_those_from_above(model, installed):
         assert abs(at - below) > 0.01 * abs(above)  # where the made-up A bends
 
 
+@every_model
+@pytest.mark.parametrize("slopes", ["arc_slopes", "normal_load_slopes"])
+def test_slopes_of_arrays_of_any_shape_are_those_of_numbers(model, slopes, installed):
+    function = getattr(installed.models[model], slopes)
+    g = np.asfortranarray(np.tile(G[:6], 25).reshape(75, 2))
+    alone = [function(float(x), 3.0) for x in g.ravel()]
+    for alpha in (3.0, np.array(3.0), np.full((1, 2), 3.0)):
+        found = function(g, alpha)
+        assert [each.shape for each in found] == [g.shape] * 2
+        np.testing.assert_array_equal(np.stack(found).reshape(2, -1).T, alone)
+    for shape in ((0,), (2, 0, 3)):
+        assert all(each.shape == shape for each in function(np.ones(shape), 3.0))
+        assert all(each.shape == shape for each in function(1.0, np.ones(shape)))
+
+
+@every_model
+def test_forces_are_identified_propagated_and_differentiated(model):
+    """With a series of cuts, that is in arrays of two axes, and without any."""
+    scene = Scene(685.0, 1.0, np.array([1e-4, 2e-4, 4e-4]), 0.1, [7e3] * 3, 3.0)
+    force = cutting_force(scene, model).total
+    fit = surrogate.identify(
+        scene.wire_radius,
+        force,
+        685.0,
+        friction_coefficient=0.1,
+        stiffening_exponent=3.0,
+        force_std=0.01 * force,
+        model=model,
+    )
+    low, high = fit.toughness_interval
+    assert low <= 1.0 <= high
+    uncertain = surrogate.propagate(scene, {"wear_strength": [500.0, 0.0, 500.0]}, model)
+    assert uncertain.total.tolist() == force.tolist()
+    assert np.all(uncertain.std >= uncertain.contributions["wear_strength"])
+    empty = Scene(685.0, 1.0, np.ones((2, 0, 3)), 0.1, 7e3, 3.0)
+    assert surrogate.propagate(empty, {"toughness": 0.1}, model).std.shape == (2, 0, 3)
+
+
+@every_model
+@pytest.mark.parametrize("name", ["toughness", "wire_radius"])
+def test_a_g_that_overflows_is_outside_without_a_warning(model, name):
+    given = {"shear_modulus": 10.0, "toughness": 1.6, "wire_radius": 1e-4, "wear_strength": 1.0}
+    for value in (1.7e308, [1.7e308]):
+        scene = Scene(**{**given, name: value})
+        for function in (cutting_force, surrogate.classify):
+            for chosen in (model, "auto"):
+                with pytest.raises(DomainError, match="g"):
+                    function(scene, model=chosen)
+                function(scene, model=chosen, extrapolate=True)
+
+
 @pytest.mark.parametrize("model", ["eq13", *MODELS])
 def test_the_energy_release_rate_is_the_inverse_of_the_distance(model):
     for alpha in (2.0, 3.0):
