@@ -11,12 +11,11 @@ operations on the same numbers, so that they agree to the last bit.
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,13 +26,14 @@ __all__ = ["CellTable", "Grid", "Place"]
 
 Array = NDArray[np.float64]
 
+_KEPT = 24  # collapsed tables, some kilobytes each
+
 _HERMITE = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]]
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """Cells and how far points are in them, 0 to 1, along g and along alpha; x = ln(g/g_touch).
 
     The cell along alpha and the place in it are floats where alpha is one number.
@@ -81,18 +81,20 @@ class Grid:
         """Return where points are, floats or arrays."""
         touch = log_touch(self.touch, log_alpha)
         x = log_g - touch
-        rate = self._rate(x, touch)
-        cell, within = _cell(x * rate + float(self.short), self.cells)
+        along = self._rate(x, touch)
+        along *= x
+        along += float(self.short)
         low, high = self.log_alpha
-        row, across = _cell((log_alpha - low) * (self.stiffening / (high - low)), self.stiffening)
-        return Place(cell, within, row, across, x)
+        across = log_alpha - low
+        across *= self.stiffening / (high - low)
+        return Place(*_cell(along, self.short + self.past), *_cell(across, self.stiffening), x)
 
     def _rate(self, x: Any, touch: Any) -> Any:
-        """Return cells per unit of ln g."""
-        before, after = self.short / (touch - self.log_g), self.past / self.beyond
+        """Return cells per unit of ln g, in an array that may be changed."""
         if type(x) is float:
-            return before if x < 0.0 else after
-        return np.where(x < 0.0, before, after)
+            return self.short / (touch - self.log_g) if x < 0.0 else self.past / self.beyond
+        before = self.short / (touch - self.log_g)
+        return np.where(x < 0.0, before, self.past / self.beyond)
 
     def slopes(self, place: Place, log_alpha: Any) -> tuple[Any, Any, float]:
         """Return d cells along g/d ln g and d ln alpha, and d cells along alpha/d ln alpha."""
@@ -133,35 +135,34 @@ class CellTable:
 
     grid: Grid
     nodes: Mapping[str, tuple[Array, Array]]
-    _columns: dict[str, list[Array]] = field(default_factory=dict, repr=False)
-    _lists: dict[str, list[list[float]]] = field(default_factory=dict, repr=False)
+    _collapsed: dict[tuple[str, int, float], list[Array]] = field(default_factory=dict, repr=False)
 
-    def values(self, names: Sequence[str], place: Place) -> list[Any]:
-        """Return functions at a place."""
-        if type(place.in_g) is float:
-            return [self._at(name, place) for name in names]
-        if type(place.in_alpha) is float:
-            return [self._along(name, place) for name in names]
-        index = place.along_g * self.grid.stiffening + place.along_alpha
+    def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
+        """Return x = ln(g/g_touch) and functions at points: floats, or arrays and one alpha."""
+        if type(log_g) is float:
+            return self._number(names, log_g, log_alpha)
+        if type(log_alpha) is float:
+            place = self.grid.place(log_g, log_alpha)
+            return place.x, [self._along(name, place) for name in names]
         if "numba" in sys.modules:
-            from surrogate.compiled import bicubic
+            return self._compiled(names, log_g, log_alpha)
+        place = self.grid.place(log_g, log_alpha)
+        return place.x, self._scattered(names, place)
 
-            at = index, place.in_g, place.in_alpha
-            return [bicubic(self.cells[name], *at) for name in names]
-        return [self._scattered(name, index, place) for name in names]
-
-    def slopes(self, name: str, place: Place, log_alpha: Any) -> tuple[Any, Any]:
-        """Return the derivatives of a function by ln g and by ln alpha."""
+    def slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any, Any]:
+        """Return x, a function and its derivatives by ln g and by ln alpha."""
+        place = self.grid.place(log_g, log_alpha)
         index = place.along_g * self.grid.stiffening + place.along_alpha
         rows = self.cells[name].reshape(-1, 4, 4)[index]
         c = np.moveaxis(rows, (-2, -1), (0, 1))
         t, s = place.in_g, place.in_alpha
         power = [c[k][0] + s * (c[k][1] + s * (c[k][2] + s * c[k][3])) for k in range(4)]
         across = [c[k][1] + s * (2.0 * c[k][2] + s * (3.0 * c[k][3])) for k in range(4)]
+        value = power[0] + t * (power[1] + t * (power[2] + t * power[3]))
         by_cell = power[1] + t * (2.0 * power[2] + t * (3.0 * power[3]))
         by_row = across[0] + t * (across[1] + t * (across[2] + t * across[3]))
         in_g, moved, in_alpha = self.grid.slopes(place, log_alpha)
-        return by_cell * in_g, by_row * in_alpha + by_cell * moved
+        return place.x, value, by_cell * in_g, by_row * in_alpha + by_cell * moved
 
     @cached_property
     def cells(self) -> dict[str, Array]:
@@ -173,43 +174,84 @@ class CellTable:
             for name, sides in self.nodes.items()
         }
 
-    def _at(self, name: str, place: Place) -> float:
-        if name not in self._lists:
-            self._lists[name] = self.cells[name].tolist()
-        t, s = place.in_g, place.in_alpha
-        c = self._lists[name][place.along_g * self.grid.stiffening + place.along_alpha]
-        c0 = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
-        c1 = c[4] + s * (c[5] + s * (c[6] + s * c[7]))
-        c2 = c[8] + s * (c[9] + s * (c[10] + s * c[11]))
-        c3 = c[12] + s * (c[13] + s * (c[14] + s * c[15]))
-        return c0 + t * (c1 + t * (c2 + t * c3))  # type: ignore[no-any-return]
+    @cached_property
+    def _columns(self) -> dict[str, list[Array]]:
+        """For each function sixteen arrays of coefficients over the cells."""
+        return {name: list(np.ascontiguousarray(c.T)) for name, c in self.cells.items()}
 
-    def _scattered(self, name: str, index: NDArray[np.intp], place: Place) -> Array:
-        if name not in self._columns:
-            self._columns[name] = list(np.ascontiguousarray(self.cells[name].T))
-        columns, t, s = self._columns[name], place.in_g, place.in_alpha
+    @cached_property
+    def _lists(self) -> dict[str, list[list[float]]]:
+        """The cells as lists, from which a number is taken more quickly."""
+        return {name: cells.tolist() for name, cells in self.cells.items()}
+
+    def _number(
+        self, names: Sequence[str], log_g: float, log_alpha: float
+    ) -> tuple[float, list[float]]:
+        """Do the same as `Grid.place` and `_scattered` for one point, in one piece for speed."""
+        grid, lists = self.grid, self._lists
+        touch = grid.touch[-1] + 0.0 * log_alpha
+        for coefficient in grid.touch[-2::-1]:
+            touch = touch * log_alpha + coefficient
+        x = log_g - touch
+        rate = grid.short / (touch - grid.log_g) if x < 0.0 else grid.past / grid.beyond
+        row, t = _cell(rate * x + grid.short, grid.cells)
+        low, high = grid.log_alpha
+        column, s = _cell((log_alpha - low) * (grid.stiffening / (high - low)), grid.stiffening)
+        found = []
+        for name in names:
+            c = lists[name][row * grid.stiffening + column]
+            c0 = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
+            c1 = c[4] + s * (c[5] + s * (c[6] + s * c[7]))
+            c2 = c[8] + s * (c[9] + s * (c[10] + s * c[11]))
+            c3 = c[12] + s * (c[13] + s * (c[14] + s * c[15]))
+            found.append(c0 + t * (c1 + t * (c2 + t * c3)))
+        return x, found
+
+    def _compiled(
+        self, names: Sequence[str], log_g: Array, log_alpha: Array
+    ) -> tuple[Array, list[Array]]:
+        from surrogate.compiled import bicubic, places
+
+        grid = self.grid
+        low, high = grid.log_alpha
+        counts = grid.short, grid.past, grid.stiffening
+        steps = grid.log_g, grid.past / grid.beyond, low, grid.stiffening / (high - low)
+        x, *place = places(log_g, log_alpha, np.array(grid.touch), counts, steps)
+        return x, [bicubic(self.cells[name], *place) for name in names]
+
+    def _scattered(self, names: Sequence[str], place: Place) -> list[Array]:
+        index = place.along_g * self.grid.stiffening
+        index += place.along_alpha
+        t, s = place.in_g, place.in_alpha
         power, taken = np.empty(t.shape), np.empty(t.shape)
-        result = np.empty(t.shape)
-        for k in (12, 8, 4, 0):
-            _horner(columns[k : k + 4], index, s, power, taken)
-            if k == 12:
-                result[...] = power
-            else:
+        found = []
+        for name in names:
+            columns, result = self._columns[name], np.empty(t.shape)
+            _horner(columns[12:], index, s, result, taken)
+            for k in (8, 4, 0):
+                _horner(columns[k : k + 4], index, s, power, taken)
                 result *= t
                 result += power
-        return result
+            found.append(result)
+        return found
 
     def _along(self, name: str, place: Place) -> Array:
-        """Return the function along g at one alpha: the table collapses to four columns."""
-        j, s = place.along_alpha, place.in_alpha
-        c = self.cells[name].reshape(self.grid.cells, self.grid.stiffening, 4, 4)[:, j]
-        columns = [
-            np.ascontiguousarray(c[:, k, 0] + s * (c[:, k, 1] + s * (c[:, k, 2] + s * c[:, k, 3])))
-            for k in range(4)
-        ]
+        """Return the function along g at one alpha."""
         result, taken = np.empty(place.in_g.shape), np.empty(place.in_g.shape)
+        columns = self._collapse(name, place.along_alpha, place.in_alpha)
         _horner(columns, place.along_g, place.in_g, result, taken)
         return result
+
+    def _collapse(self, name: str, j: int, s: float) -> list[Array]:
+        """Return the four columns that are left of the table at one alpha; the latest are kept."""
+        found = self._collapsed.get((name, j, s))
+        if found is None:
+            c = self.cells[name].reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 1, 0)
+            found = list(np.ascontiguousarray(c[0] + s * (c[1] + s * (c[2] + s * c[3]))))
+            if len(self._collapsed) >= _KEPT:
+                self._collapsed.clear()
+            self._collapsed[name, j, s] = found
+        return found
 
 
 def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: Array) -> None:
@@ -221,13 +263,14 @@ def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: 
 
 
 def _cell(place: Any, cells: int) -> tuple[Any, Any]:
-    """Return the cell of a place and how far it is in it, from 0 to 1."""
+    """Return the cell of a place and how far it is in it, from 0 to 1; an array is changed."""
     if type(place) is float:
-        number = min(max(math.floor(place), 0), cells - 1)
+        number = int(place) if 0.0 <= place < cells else (cells - 1 if place >= cells else 0)
         return number, place - number
     cell = place.astype(np.intp)
     np.minimum(np.maximum(cell, 0, out=cell), cells - 1, out=cell)
-    return cell, place - cell
+    place -= cell
+    return cell, place
 
 
 def _coefficients(values: Array) -> Array:

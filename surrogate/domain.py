@@ -70,6 +70,10 @@ class Domain:
         first, last = self.alpha
         return (g >= low) & (g <= high) & (alpha >= first) & (alpha <= last)
 
+    def surrounds(self, log_g: Any, log_alpha: Any) -> bool:
+        """Return whether all points are inside."""
+        return _between(log_g, self.log_g) and _between(log_alpha, self.log_alpha)
+
     def clamped(self, log_g: Any, log_alpha: Any) -> tuple[Any, Any]:
         """Return the nearest points inside."""
         return _clamped(log_g, *self.log_g), _clamped(log_alpha, *self.log_alpha)
@@ -98,6 +102,16 @@ def _within(quantity: Quantity, ends: tuple[float, float], remedy: str) -> Quant
         error=DomainError,
         remedy=f"give {low:g} to {high:g}, {remedy}",
     )
+
+
+def _between(value: Any, ends: tuple[float, float]) -> bool:
+    """Return whether all values are between the ends; nan is not."""
+    low, high = ends
+    if type(value) is float:
+        return low <= value <= high
+    if not value.size:
+        return True
+    return bool(np.minimum.reduce(value) >= low and np.maximum.reduce(value) <= high)
 
 
 def _clamped(value: Any, low: float, high: float) -> Any:

@@ -31,7 +31,7 @@ from surrogate.wedge import wedge_functions, wedge_load, wedge_slope, wedge_slop
 
 __all__ = ["FittedModel", "in_blocks"]
 
-BLOCK = 2**13  # points at a time, whose temporaries stay in the cache
+BLOCK = 2**12  # points at a time, whose temporaries stay in the cache
 _ARC, _LOAD, _DISTANCE = QUANTITIES
 
 
@@ -103,6 +103,8 @@ class FittedModel(ForceModel):
 
     def _contact(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
         log_g, log_alpha = log(g), log(alpha)
+        if self.limits.surrounds(log_g, log_alpha):
+            return self.inside(names, log_g, log_alpha, g)
         at, row = self.limits.clamped(log_g, log_alpha)
         values = self.inside(names, at, row, g)
         low, high = self.limits.log_g

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from surrogate.cell_table import CellTable, Place
+from surrogate.cell_table import CellTable
 from surrogate.domain import Domain
 from surrogate.elementwise import where
 from surrogate.fitted_models import FittedModel
@@ -33,26 +33,19 @@ class TableModel(FittedModel):
     equation: str = "bicubic cells of the gp's mean"
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
-        place = self.table.grid.place(log_g, log_alpha)
-        values = self.table.values(names, place)
-        return [_shaped(*each, place) for each in zip(names, values)]  # noqa: B905 (quicker)
+        x, values = self.table.at(names, log_g, log_alpha)
+        return [1.0 + vertex(x) * v if n == "distance" else v for n, v in zip(names, values)]  # noqa: B905 (quicker)
 
     def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
-        place = self.table.grid.place(log_g, log_alpha)
-        (value,) = self.table.values((name,), place)
-        in_g, in_alpha = self.table.slopes(name, place, log_alpha)
+        x, value, in_g, in_alpha = self.table.slopes(name, log_g, log_alpha)
         if name != "distance":
             return value, in_g, in_alpha
         _, bend = self.limits.log_touch_slopes(log_alpha)
-        inner = where(place.x < 0.0, place.x, 1.0)
-        shape = vertex(place.x)
+        inner = where(x < 0.0, x, 1.0)
+        shape = vertex(x)
         steep = POWER * shape / inner  # d |x|^(7/4)/dx
         return (
             1.0 + shape * value,
-            where(place.x < 0.0, shape * in_g + steep * value, 0.0),
-            where(place.x < 0.0, shape * in_alpha - steep * value * bend, 0.0),
+            where(x < 0.0, shape * in_g + steep * value, 0.0),
+            where(x < 0.0, shape * in_alpha - steep * value * bend, 0.0),
         )
-
-
-def _shaped(name: str, value: Any, place: Place) -> Any:
-    return 1.0 + vertex(place.x) * value if name == "distance" else value

@@ -35,7 +35,8 @@ def log_touch(coefficients: Sequence[float], log_alpha: Any) -> Any:
     """
     value = coefficients[-1] + 0.0 * log_alpha
     for coefficient in coefficients[-2::-1]:
-        value = value * log_alpha + coefficient
+        value *= log_alpha  # in place, if it is an array
+        value += coefficient
     return value
 
 

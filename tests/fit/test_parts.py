@@ -91,7 +91,7 @@ def test_a_table_of_a_cubic_polynomial_is_that_polynomial(table):
     place = GRID.place(log_g, log_alpha)
     u = place.along_g + place.in_g - GRID.short
     expected = cubic(u, log_alpha) + 2.0 * np.maximum(u, 0.0)
-    assert table.values(("f",), place)[0] == pytest.approx(expected, rel=1e-12, abs=1e-11)
+    assert table.at(("f",), log_g, log_alpha)[1][0] == pytest.approx(expected, rel=1e-12, abs=1e-11)
 
 
 def test_nodes_are_where_the_grid_says():
@@ -104,26 +104,28 @@ def test_nodes_are_where_the_grid_says():
 def test_ways_of_evaluation_agree_to_the_last_bit(table, monkeypatch):
     monkeypatch.delitem(sys.modules, "numba", raising=False)
     log_g, log_alpha = anywhere()
-    scattered = table.values(("f",), GRID.place(log_g, log_alpha))[0]
-    for i in range(len(log_g)):
-        assert (
-            table.values(("f",), GRID.place(float(log_g[i]), float(log_alpha[i])))[0]
-            == (scattered[i])
-        )
-    along = table.values(("f",), GRID.place(log_g, 1.3))[0]
-    both = table.values(("f",), GRID.place(log_g, np.full(len(log_g), 1.3)))[0]
+    scattered = table.at(("f",), log_g, log_alpha)
+    assert [a.tolist() for a in (scattered[0], *scattered[1])] == one_by_one(
+        table, log_g, log_alpha
+    )
+    along = table.at(("f",), log_g, 1.3)[1][0]
+    both = table.at(("f",), log_g, np.full(len(log_g), 1.3))[1][0]
     np.testing.assert_array_equal(along, both)
 
 
 def test_compiled_cells_agree_to_the_last_bit(table):
     pytest.importorskip("numba")
     log_g, log_alpha = anywhere()
-    compiled = table.values(("f",), GRID.place(log_g, log_alpha))[0]
-    alone = [
-        table.values(("f",), GRID.place(float(x), float(y)))[0]
-        for x, y in zip(log_g, log_alpha, strict=True)
+    x, values = table.at(("f",), log_g, log_alpha)
+    assert [a.tolist() for a in (x, *values)] == one_by_one(table, log_g, log_alpha)
+
+
+def one_by_one(table, log_g, log_alpha):
+    """Return x and the function, each point computed as a float."""
+    points = [
+        table.at(("f",), *each) for each in zip(log_g.tolist(), log_alpha.tolist(), strict=True)
     ]
-    np.testing.assert_array_equal(compiled, alone)
+    return [[x for x, _ in points], [values[0] for _, values in points]]
 
 
 def test_slopes_of_a_table(table):
@@ -131,9 +133,11 @@ def test_slopes_of_a_table(table):
     h = 1e-6
 
     def at(x, y):
-        return table.values(("f",), GRID.place(x, y))[0]
+        return table.at(("f",), x, y)[1][0]
 
-    by_g, by_alpha = table.slopes("f", GRID.place(log_g, log_alpha), log_alpha)
+    x, value, by_g, by_alpha = table.slopes("f", log_g, log_alpha)
+    np.testing.assert_array_equal(x, log_g - log_touch(GRID.touch, log_alpha))
+    np.testing.assert_array_equal(value, at(log_g, log_alpha))
     far = np.abs(log_g - log_touch(GRID.touch, log_alpha)) > 1e-4  # differences across the bend
     difference = (at(log_g + h, log_alpha) - at(log_g - h, log_alpha)) / (2.0 * h)
     assert by_g[far] == pytest.approx(difference[far], rel=1e-6, abs=1e-6)
