@@ -12,8 +12,10 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate import plausibility
 from surrogate.errors import InputError
 from surrogate.paths import file_name
+from surrogate.plausibility import doubts
 from surrogate.units import (
     ENERGY_DENSITY,
     LENGTH,
@@ -76,6 +78,14 @@ class Measurements:
     force: NDArray[np.float64]
     force_std: NDArray[np.float64] | None = None
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What can hardly be meant, in words: see `surrogate.plausibility`."""
+        return (
+            *doubts(plausibility.RADIUS, self.wire_radius),
+            *doubts(plausibility.FORCE, self.force),
+        )
+
 
 @dataclass(frozen=True)
 class Material:
@@ -108,6 +118,20 @@ class Material:
     work_of_fracture_std: float | None = None
     friction_coefficient: float | None = None
     stiffening_exponent: float | None = None
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What can hardly be meant, in words: see `surrogate.plausibility`."""
+        return tuple(
+            sentence
+            for quantity, value in (
+                (plausibility.SHEAR_MODULUS, self.shear_modulus),
+                (plausibility.TOUGHNESS, self.pure_shear_toughness),
+                (plausibility.WORK_OF_FRACTURE, self.work_of_fracture),
+            )
+            if value is not None
+            for sentence in doubts(quantity, value)
+        )
 
 
 def read_measurements(path: str | PathLike[str]) -> Measurements:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surrogate import plausibility
 from surrogate.force_models import ClosedForm, ForceModel, force_model
+from surrogate.plausibility import doubts
 from surrogate.statistics import normal_quantile, student_quantile
 
 if TYPE_CHECKING:
@@ -44,7 +46,8 @@ def fit_warnings(fit: Identification) -> Iterator[str]:
     ...     print(sentence[:28])
     only 2 different radii: they
     """
-    for doubts in (
+    for reasons in (
+        _implausible,
         _too_few_radii,
         _condition,
         _negative_estimates,
@@ -53,7 +56,20 @@ def fit_warnings(fit: Identification) -> Iterator[str]:
         _scatter,
         _outlier,
     ):
-        yield from doubts(fit)
+        yield from reasons(fit)
+
+
+def _implausible(fit: Identification) -> Iterator[str]:
+    yield from doubts(plausibility.RADIUS, fit.wire_radius)
+    yield from doubts(plausibility.FORCE, fit.force)
+    yield from doubts(plausibility.SHEAR_MODULUS, fit.shear_modulus)
+    if np.isfinite(fit.known.toughness_max):
+        yield from doubts(plausibility.TOUGHNESS, fit.known.toughness_max)
+    if fit.known.wear_strength:
+        yield from doubts(plausibility.WEAR_STRENGTH, fit.known.wear_strength)
+    least = fit.toughness - fit.toughness_std  # what the forces hardly determine is not doubted
+    if least > 0.0:
+        yield from doubts(plausibility.COHESIVE_LENGTH, least / fit.shear_modulus)
 
 
 def _too_few_radii(fit: Identification) -> Iterator[str]:

@@ -139,7 +139,8 @@ def _case(name, function, parameters, arguments, model):
     fixed = {} if model is None else {"model": model}
     label = name if model is None else f"{name}: {model}"
     aliases = (*ALIASES.get(name, ()), *(("g", "alpha") if model in FITTED_NAMES else ()))
-    slow = name in ("identify", "regime_map", *DRAWN)
+    searches = name == "transition_radius" and model in FITTED_NAMES
+    slow = searches or name in ("identify", "regime_map", *DRAWN)
     if name == "identify" and model in ("high-toughness", "eq9"):
         return None  # without wear there is nothing to identify
     if "scene" in parameters:

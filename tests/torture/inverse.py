@@ -25,6 +25,8 @@ SPREAD = (1.5, 20.0)
 """Thickest wire over thinnest."""
 WEAR = (0.03, 30.0)
 """Wear over toughness at the middle radius, 4 tau_w R_w/Gamma_o."""
+SLIPS = 10
+"""Of how many experiments one is done with slips of units, too."""
 FEWEST, SIGMAS = 200, 3.5
 """Experiments from which a coverage is judged, and standard errors that it may be off."""
 
@@ -100,6 +102,8 @@ def experiments(number=10_000, model="eq13", seed=0, budget=300.0):
             continue
         found.append((one, fit))
         _warned(part, one, fit)
+        if i % SLIPS == 0:
+            _slipped(part, one, model)
     for row, some in _groups(found):
         _coverage(part, row, some)
     part.seconds = time.monotonic() - start
@@ -156,6 +160,30 @@ def _coverage(part, row, some):
             part.fail(f"{row}, {name}", "bias", f"median {median:.3f} standard errors")
 
 
+def _slipped(part, one, model):
+    """Count the slips of units that are said; one by 1000 has to be for wires of 10 um to 1 mm."""
+    usual = one.radius.min() >= 1e-5 and one.radius.max() <= 1e-3
+    for slip, name, factor in (
+        ("mm given as m", "wire_radius", 1e3),
+        ("um given as m", "wire_radius", 1e6),
+        ("m given as mm", "wire_radius", 1e-3),
+        ("kPa given as Pa", "shear_modulus", 1e-3),
+        ("N given as N/m, of 10 mm", "force", 1e-2),
+        ("diameter given as radius", "wire_radius", 2.0),
+    ):
+        given = _arguments(one, model)
+        fit, ended = attempt(surrogate.identify, {**given, name: factor * given[name]})
+        row = f"slip: {slip}"
+        if ended is not None:
+            part.count(row, ended[0])  # a fitted model may not reach so far
+        elif any("is hardly that" in sentence for sentence in fit.warnings):
+            part.count(row, "said")
+        elif usual and name == "wire_radius" and factor != 2.0:
+            part.fail(row, "not said", repr(one))
+        else:
+            part.count(row, "not told from the numbers")
+
+
 def _warned(part, one, fit):
     """Hold every warning that has a plain condition beside that condition."""
     said = " ".join(fit.warnings)
@@ -165,6 +193,10 @@ def _warned(part, one, fit):
         "are too alike to tell": fit.condition > 30.0,
         "different radii": np.unique(one.radius).size < 3,
         "leave no measure of scatter": one.radius.size < 3 and not one.known,
+        "the force per thickness (": one.force.min() < 1e-3 or one.force.max() > 1e6,
+        "the wire radius (": False,
+        "the shear modulus (": False,
+        "the elasto-cohesive length": fit.toughness - fit.toughness_std > one.shear_modulus,
     }
     if fit.model in ("eq13", "low-toughness", "friction-free"):
         above = fit.toughness > one.shear_modulus * one.radius.min()
