@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.cell_table import CellTable, Grid
+from surrogate.cell_grid import Grid
+from surrogate.cell_table import CellTable
 from surrogate.process_model import ProcessModel
 from surrogate.quantities import QUANTITIES, coordinates
 from surrogate.wedge import wedge_functions, wedge_load

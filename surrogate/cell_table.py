@@ -1,9 +1,8 @@
 """Piecewise bicubic functions of (ln g, ln alpha) that may bend where the tip touches the wire.
 
-The grid follows the touch: along g the cells are equal in ln g from the lowest g to g_touch(alpha),
-and equal in ln(g/g_touch) from there on; along alpha they are equal in ln alpha. In every cell a
-function is a polynomial of degree three in each direction. Values and slopes agree at the edges of
-cells, but the slopes across the touch need not.
+The grid follows the touch, see `surrogate.cell_grid`. In every cell a function is a polynomial of
+degree three in each direction. Values and slopes agree at the edges of cells, but the slopes across
+the touch need not.
 
 Floats, arrays with one alpha and arrays of both take ways of different speed through the same
 operations on the same numbers, so that they agree to the last bit.
@@ -15,14 +14,14 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.touch import log_touch, log_touch_slope
+from surrogate.cell_grid import Grid, Place
 
-__all__ = ["CellTable", "Grid", "Place"]
+__all__ = ["CellTable"]
 
 Array = NDArray[np.float64]
 
@@ -31,93 +30,6 @@ _KEPT = 24  # collapsed tables, some kilobytes each
 _HERMITE = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]]
 )
-
-
-class Place(NamedTuple):
-    """Cells and how far points are in them, 0 to 1, along g and along alpha; x = ln(g/g_touch).
-
-    The cell along alpha and the place in it are floats where alpha is one number.
-    """
-
-    along_g: Any
-    in_g: Any
-    along_alpha: Any
-    in_alpha: Any
-    x: Any
-
-
-@dataclass(frozen=True)
-class Grid:
-    """The cells.
-
-    Parameters
-    ----------
-    log_g : float
-        ln g at which the first cell begins.
-    beyond : float
-        ln(g/g_touch) at which the last cell ends.
-    log_alpha : tuple of float
-        The ends in ln alpha.
-    touch : tuple of float
-        Coefficients of ln g_touch in powers of ln alpha.
-    short, past, stiffening : int
-        Cells along g short of and past the touch, and along alpha.
-    """
-
-    log_g: float
-    beyond: float
-    log_alpha: tuple[float, float]
-    touch: tuple[float, ...]
-    short: int
-    past: int
-    stiffening: int
-
-    @property
-    def cells(self) -> int:
-        """Number of cells along g."""
-        return self.short + self.past
-
-    def place(self, log_g: Any, log_alpha: Any) -> Place:
-        """Return where points are, floats or arrays."""
-        touch = log_touch(self.touch, log_alpha)
-        x = log_g - touch
-        along = self._rate(x, touch)
-        along *= x
-        along += float(self.short)
-        low, high = self.log_alpha
-        across = log_alpha - low
-        across *= self.stiffening / (high - low)
-        return Place(*_cell(along, self.short + self.past), *_cell(across, self.stiffening), x)
-
-    def _rate(self, x: Any, touch: Any) -> Any:
-        """Return cells per unit of ln g, in an array that may be changed."""
-        if type(x) is float:
-            return self.short / (touch - self.log_g) if x < 0.0 else self.past / self.beyond
-        before = self.short / (touch - self.log_g)
-        return np.where(x < 0.0, before, self.past / self.beyond)
-
-    def slopes(self, place: Place, log_alpha: Any) -> tuple[Any, Any, float]:
-        """Return d cells along g/d ln g and d ln alpha, and d cells along alpha/d ln alpha."""
-        touch, bend = log_touch(self.touch, log_alpha), log_touch_slope(self.touch, log_alpha)
-        rate = self._rate(place.x, touch)
-        # before the touch the cells widen with it: place = short (ln g - low)/(touch - low)
-        widening = place.x / (touch - self.log_g)
-        moved = -rate * bend * (1.0 + np.where(place.x < 0.0, widening, 0.0))
-        low, high = self.log_alpha
-        return rate, moved, self.stiffening / (high - low)
-
-    def nodes(self) -> tuple[Any, Any]:
-        """Return the nodes along g, counted from the touch, and ln alpha of those along alpha."""
-        return (
-            np.arange(self.cells + 1.0) - self.short,
-            np.linspace(*self.log_alpha, self.stiffening + 1),
-        )
-
-    def log_g_of(self, node: Any, log_alpha: Any) -> Any:
-        """Return ln g of a node along g."""
-        touch = log_touch(self.touch, log_alpha)
-        short = node * (touch - self.log_g) / self.short
-        return touch + np.where(node < 0.0, short, node * self.beyond / self.past)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,31 +92,47 @@ class CellTable:
         return {name: list(np.ascontiguousarray(c.T)) for name, c in self.cells.items()}
 
     @cached_property
-    def _lists(self) -> dict[str, list[list[float]]]:
-        """The cells as lists, from which a number is taken more quickly."""
-        return {name: cells.tolist() for name, cells in self.cells.items()}
+    def _lists(self) -> dict[str, list[tuple[float, ...]]]:
+        """The cells as lists, from which numbers are taken more quickly."""
+        return {name: list(map(tuple, c.tolist())) for name, c in self.cells.items()}
+
+    @cached_property
+    def _numbers(self) -> tuple[Any, ...]:
+        """What `_number` needs of the grid."""
+        grid = self.grid
+        low, high = grid.log_alpha
+        return (
+            *(grid.touch[-1], grid.touch[-2::-1], grid.log_g, grid.short, grid.past / grid.beyond),
+            *(grid.cells, low, grid.stiffening / (high - low), grid.stiffening),
+        )
 
     def _number(
         self, names: Sequence[str], log_g: float, log_alpha: float
     ) -> tuple[float, list[float]]:
         """Do the same as `Grid.place` and `_scattered` for one point, in one piece for speed."""
-        grid, lists = self.grid, self._lists
-        touch = grid.touch[-1] + 0.0 * log_alpha
-        for coefficient in grid.touch[-2::-1]:
+        last, others, low_g, short, past, rows, low_alpha, per_alpha, columns = self._numbers
+        touch = last + 0.0 * log_alpha
+        for coefficient in others:
             touch = touch * log_alpha + coefficient
         x = log_g - touch
-        rate = grid.short / (touch - grid.log_g) if x < 0.0 else grid.past / grid.beyond
-        row, t = _cell(rate * x + grid.short, grid.cells)
-        low, high = grid.log_alpha
-        column, s = _cell((log_alpha - low) * (grid.stiffening / (high - low)), grid.stiffening)
+        t = (short / (touch - low_g) if x < 0.0 else past) * x + short
+        s = (log_alpha - low_alpha) * per_alpha
+        row, column = int(t), int(s)
+        if not 0 <= row < rows:
+            row = 0 if row < 0 else rows - 1
+        if not 0 <= column < columns:
+            column = 0 if column < 0 else columns - 1
+        t -= row
+        s -= column
+        cell = row * columns + column
         found = []
         for name in names:
-            c = lists[name][row * grid.stiffening + column]
-            c0 = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
-            c1 = c[4] + s * (c[5] + s * (c[6] + s * c[7]))
-            c2 = c[8] + s * (c[9] + s * (c[10] + s * c[11]))
-            c3 = c[12] + s * (c[13] + s * (c[14] + s * c[15]))
-            found.append(c0 + t * (c1 + t * (c2 + t * c3)))
+            a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = self._lists[name][cell]
+            a += s * (a1 + s * (a2 + s * a3))
+            b += s * (b1 + s * (b2 + s * b3))
+            c += s * (c1 + s * (c2 + s * c3))
+            d += s * (d1 + s * (d2 + s * d3))
+            found.append(a + t * (b + t * (c + t * d)))
         return x, found
 
     def _compiled(
@@ -260,17 +188,6 @@ def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: 
     for column in columns[-2::-1]:
         result *= x
         result += column.take(index, out=taken, mode="clip")
-
-
-def _cell(place: Any, cells: int) -> tuple[Any, Any]:
-    """Return the cell of a place and how far it is in it, from 0 to 1; an array is changed."""
-    if type(place) is float:
-        number = int(place) if 0.0 <= place < cells else (cells - 1 if place >= cells else 0)
-        return number, place - number
-    cell = place.astype(np.intp)
-    np.minimum(np.maximum(cell, 0, out=cell), cells - 1, out=cell)
-    place -= cell
-    return cell, place
 
 
 def _coefficients(values: Array) -> Array:

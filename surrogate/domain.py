@@ -72,6 +72,10 @@ class Domain:
 
     def surrounds(self, log_g: Any, log_alpha: Any) -> bool:
         """Return whether all points are inside."""
+        if type(log_g) is float and type(log_alpha) is float:  # the same, and quicker
+            low, high = self.log_g
+            first, last = self.log_alpha
+            return low <= log_g <= high and first <= log_alpha <= last
         return _between(log_g, self.log_g) and _between(log_alpha, self.log_alpha)
 
     def clamped(self, log_g: Any, log_alpha: Any) -> tuple[Any, Any]:

@@ -11,7 +11,8 @@ import numpy as np
 
 from surrogate.blended import BlendModel
 from surrogate.bounds import Bounds
-from surrogate.cell_table import CellTable, Grid
+from surrogate.cell_grid import Grid
+from surrogate.cell_table import CellTable
 from surrogate.domain import Domain
 from surrogate.errors import InputError
 from surrogate.fitted_file import FILE, read_fitted

@@ -11,6 +11,7 @@ about that power; beyond, delta is R_w.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -44,8 +45,8 @@ def vertex(x: Any) -> Any:
     """
     if type(x) is float:
         short = max(-x, 0.0)
-        half = float(np.sqrt(short))
-        return short * half * float(np.sqrt(half))
+        half = math.sqrt(short)  # to the last bit as numpy's, which roots alone are
+        return short * half * math.sqrt(half)
     short = np.maximum(-x, 0.0)
     half = np.sqrt(short)
     return short * half * np.sqrt(half)

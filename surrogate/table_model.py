@@ -34,7 +34,10 @@ class TableModel(FittedModel):
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         x, values = self.table.at(names, log_g, log_alpha)
-        return [1.0 + vertex(x) * v if n == "distance" else v for n, v in zip(names, values)]  # noqa: B905 (quicker)
+        if "distance" in names:
+            which = names.index("distance")
+            values[which] = 1.0 + vertex(x) * values[which]
+        return values
 
     def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
         x, value, in_g, in_alpha = self.table.slopes(name, log_g, log_alpha)

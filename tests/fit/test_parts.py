@@ -9,7 +9,8 @@ from made_up import points
 
 from fe_training.fit_gp import leave_out_errors
 from surrogate.blended import BlendModel, distance_formula
-from surrogate.cell_table import CellTable, Grid
+from surrogate.cell_grid import Grid
+from surrogate.cell_table import CellTable
 from surrogate.domain import Domain
 from surrogate.gaussian_process import GaussianProcess
 from surrogate.inverse import toughness_of
