@@ -25,7 +25,7 @@ demo: $(VENV)/.demo-installed
 	$(BIN)/python scripts/demo
 
 test: $(VENV)/.dev-installed
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" -n auto --dist loadfile
 
 test-slow: $(VENV)/.dev-installed
 	$(BIN)/python -m pytest -m slow
