@@ -20,6 +20,8 @@ from .values import LONG, NOT_NUMBERS, NUMBERS, SIZES, arrays_of, kinds_of
 __all__ = ["corners", "extremes"]
 
 SECONDS = 20
+WAITING = 15
+"""Times as long by the clock, for what waits and does not compute."""
 CHECKED, SOUND, REFUSED = "value as exact", "value", "refused by name"
 PHRASES = ("must be a ratio with a limit", "has no limit", "has no answer", "must broadcast")
 """In errors about several arguments together, none of which is wrong by itself."""
@@ -36,16 +38,24 @@ class Hang(Exception):
 
 @contextmanager
 def _limited():
+    """Stop what takes too long: by the processor's time, which no other process adds to."""
+
     def stop(*_):
         raise Hang
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    timers = {
+        signal.SIGPROF: (signal.ITIMER_PROF, 1),
+        signal.SIGALRM: (signal.ITIMER_REAL, WAITING),
+    }
+    before = {number: signal.signal(number, stop) for number in timers}
+    for timer, factor in timers.values():
+        signal.setitimer(timer, factor * SECONDS)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        for number, (timer, _) in timers.items():
+            signal.setitimer(timer, 0.0)
+            signal.signal(number, before[number])
 
 
 def attempt(call, arguments):
