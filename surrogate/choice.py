@@ -22,7 +22,7 @@ from surrogate.force_models import FORCE_MODELS, ForceModel
 from surrogate.quantities import QUANTITIES
 from surrogate.validation import RTOL, one_number
 
-__all__ = ["RTOL", "Chosen", "available", "bounded", "choose_contact", "choose_terms"]
+__all__ = ["RTOL", "Chosen", "available", "bounded", "choose_contact", "choose_terms", "rounded_up"]
 
 Array = NDArray[np.float64]
 
@@ -179,7 +179,7 @@ def _chosen(
             f"rtol must be met by a model, but rtol = {tolerance:g} is not at g = {g[point]:.4g}, "
             f"alpha = {alpha[point]:.4g} ({np.count_nonzero(short)} of {short.size} points), where "
             f"the best is {models[best].name!r} with an error of up to {error:.2g}; "
-            f"give rtol={_up(error)} or more."
+            f"give rtol={rounded_up(error)} or more."
         )
     names = [model.name for model in models]
     code = np.where(outside, names.index(OUTSIDE), code)
@@ -187,7 +187,13 @@ def _chosen(
     return Chosen(models, code, bound, models[-1].holds(g, alpha), needed)
 
 
-def _up(error: float) -> str:
-    """Return a number in two digits that is not below the error."""
+def rounded_up(error: float) -> str:
+    """Return a number in two digits that is not below the error.
+
+    Examples
+    --------
+    >>> rounded_up(0.01234), rounded_up(0.02)
+    ('0.013', '0.02')
+    """
     text = f"{error:.1e}"
     return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"

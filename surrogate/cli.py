@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate import cli_identify, cli_map, report
+from surrogate import cli_identify, cli_map, identification_report, report
 from surrogate.command import OneLineParser, complete, run_command
 from surrogate.data import Material, read_material, read_measurements
 from surrogate.errors import InputError
@@ -111,8 +111,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     --------
     >>> main(["force", "--shear-modulus", "685Pa", "--toughness", "2 J/m2", "--wire-radius", "1mm"])
     Model eq13, Eq. (13)
-    R_w [mm]  g [-]  F_ss/T [N/m]  cleavage  friction  wear  model holds
-    1         2.92   2             2         0         0     yes
+    R_w [mm]  g [-]  F_ss/T [N/m]  cleavage  friction  wear  model  error up to  model holds
+    1         2.92   2             2         0         0     eq13   0 %          yes
     0
     """
     return run_command("wirecut", lambda: _run(arguments))
@@ -232,6 +232,7 @@ def _add_friction_and_stiffening(
 def _add_force_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     _add_model_option(command)
+    _add_extrapolate_option(command)
 
 
 def _add_regime_options(command: argparse.ArgumentParser) -> None:
@@ -243,11 +244,30 @@ def _add_regime_options(command: argparse.ArgumentParser) -> None:
         metavar="SHARE",
         help="share of the force from which a term dominates (default 2/3)",
     )
+    _add_model_option(command)
+    _add_extrapolate_option(command)
 
 
 def _add_model_option(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--model", default="eq13", help="force model, see 'wirecut models' (default eq13)"
+        "--model",
+        default="auto",
+        help="force model, see 'wirecut models' (default auto: the cheapest that is exact enough)",
+    )
+    command.add_argument(
+        "--rtol",
+        type=_quantity(NUMBER),
+        default=0.02,
+        metavar="ERROR",
+        help="relative error that will do with --model auto (default 0.02)",
+    )
+
+
+def _add_extrapolate_option(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--extrapolate",
+        action="store_true",
+        help="continue a fitted model outside its domain by its asymptotes",
     )
 
 
@@ -300,15 +320,15 @@ def _scene(options: argparse.Namespace) -> Scene:
 
 def _force(options: argparse.Namespace) -> None:
     scene = _scene(options)
-    record = report.force_record(scene, cutting_force(scene, model=options.model))
-    _print(options, record, report.force_text)
+    force = cutting_force(scene, options.model, options.rtol, options.extrapolate)
+    _print(options, report.force_record(scene, force), report.force_text)
 
 
 def _regime(options: argparse.Namespace) -> None:
     scene = _scene(options)
-    _print(
-        options, report.regime_record(scene, classify(scene, options.threshold)), report.regime_text
-    )
+    regime = classify(scene, options.threshold, options.model, options.rtol, options.extrapolate)
+    record = report.regime_record(scene, regime, options.model)
+    _print(options, record, report.regime_text)
 
 
 def _map(options: argparse.Namespace) -> None:
@@ -341,6 +361,7 @@ def _identify(options: argparse.Namespace) -> None:
         stiffening_exponent=_given(material.stiffening_exponent, 2.0),
         force_std=measurements.force_std,
         model=options.model,
+        rtol=options.rtol,
         confidence=options.confidence,
         **cli_identify.facts(options),
     )
@@ -359,8 +380,8 @@ def _identify(options: argparse.Namespace) -> None:
 
         write_curve(fit, options.csv)
     record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
-    record |= report.identification_record(fit, material)
-    _print(options, record, report.identification_text)
+    record |= identification_report.identification_record(fit, material)
+    _print(options, record, identification_report.identification_text)
 
 
 def _material(options: argparse.Namespace) -> Material:

@@ -180,7 +180,7 @@ def _example() -> list[MapPoints]:
     """Return the shipped experiment, with what Eq. (13) says about its gel."""
     cuts = read_measurements(model_file("paam-wire-cutting.csv"))
     material = read_material(model_file("paam-material.json"))
-    fit = identify(cuts.wire_radius, cuts.force, material.shear_modulus or np.nan)
+    fit = identify(cuts.wire_radius, cuts.force, material.shear_modulus or np.nan, model="eq13")
     return [MapPoints(fit.scene(cuts.wire_radius), "PAAm, Eq. (13)")]
 
 

@@ -53,7 +53,8 @@ class Noise:
             return np.full(wire_radius.shape, self.force_std)
         assert self.expected is not None
         assert self.relative_force_std is not None
-        force = cutting_force(replace(self.expected, wire_radius=wire_radius)).total
+        scene = replace(self.expected, wire_radius=wire_radius)
+        force = cutting_force(scene, "eq13").total  # the line that is designed for
         return np.asarray(FORCE_STD.checked(self.relative_force_std * np.asarray(force)))
 
 

@@ -23,6 +23,9 @@ FALSE_ALARM = 0.01
 """Probability that a sound experiment, of however many cuts, is given an outlier warning; and
 the same for a misfit warning."""
 
+CORNER = 1e-3
+"""Cosine between residuals and slope from which the misfit counts as having a corner."""
+
 _ROUNDING = 64.0 * np.finfo(float).eps
 
 
@@ -187,7 +190,8 @@ def _outlier(fit: Identification) -> Iterator[str]:
     Only the worst, because one bad cut drags the line away from the good ones. Without known
     standard errors the spread is that of the other cuts, each left out in turn.
     """
-    if _is_exact(fit) or any(_limits(fit)):  # at a limit the residuals have another spread
+    # at a limit, or where the curve has a corner, the residuals have another spread
+    if _is_exact(fit) or any(_limits(fit)) or _at_corner(fit):
         return
     confidence = 1.0 - FALSE_ALARM / fit.force.size
     spread = np.sqrt(np.maximum(1.0 - fit.leverage, 0.0))
@@ -212,6 +216,19 @@ def _outlier(fit: Identification) -> Iterator[str]:
             f"{fit.force[worst]:.4g} N/m) is {abs(deviation[worst]):.1f} standard deviations off "
             f"the {_shape(fit)} (limit {limit:.1f}): an outlier; repeat that cut"
         )
+
+
+def _at_corner(fit: Identification) -> bool:
+    """Return whether the misfit has a corner at the estimate, as where the tip touches a wire.
+
+    At a smooth minimum the weighted residuals are at right angles to the force's slope.
+    """
+    if fit.profile is None or fit.known.toughness_prior is not None:
+        return False
+    weight = fit.cuts.weight
+    slope, residuals = weight * fit.force_slopes(fit.wire_radius)[:, 0], weight * fit.residuals
+    size = float(np.linalg.norm(slope) * np.linalg.norm(residuals))
+    return bool(abs(slope @ residuals) > CORNER * size)
 
 
 def _shape(fit: Identification) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.elementwise import apply, evaluate_checked
 from surrogate.equations import RELATIVE_WEAR_STRENGTH
-from surrogate.force_models import FITTED_NAMES, force_model
+from surrogate.force_models import AUTO, FITTED_NAMES, force_model, is_auto
 from surrogate.inside import require_inside
 from surrogate.options import flag
 from surrogate.records import Record
@@ -25,10 +25,7 @@ from surrogate.validation import (
     one_number,
 )
 
-__all__ = ["AUTO", "CuttingForce", "cutting_force", "dissipative_force"]
-
-AUTO = "auto"
-"""The model that stands for the cheapest one that is exact enough."""
+__all__ = ["CuttingForce", "cutting_force", "dissipative_force"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,21 +76,22 @@ class CuttingForce(Record):
 
 
 def cutting_force(
-    scene: Scene, model: str = "eq13", rtol: float = 0.02, extrapolate: bool = False
+    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
 ) -> CuttingForce:
-    """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (13).
+    """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (S2).
 
     Parameters
     ----------
     scene : Scene
         What is cut and with which wire, in SI units.
-    model : str, default "eq13"
-        "eq13" for Eq. (13), "high-toughness" for Eq. (10), "low-toughness" for Eq. (12),
-        "friction-free" for Eq. (15), or "eq9" for Eq. (9) with the exponents of Table 1,
-        linear in alpha between them; "power-law", "table" or "gp" for those fitted to finite
-        elements; "auto" for the cheapest one that meets `rtol`, at each point by itself.
+    model : str, default "auto"
+        "auto" for the cheapest model that meets `rtol`, at each point by itself; "power-law",
+        "table" or "gp" for those fitted to finite elements; "eq13" for Eq. (13), "high-toughness"
+        for Eq. (10), "low-toughness" for Eq. (12), "friction-free" for Eq. (15), or "eq9" for
+        Eq. (9) with the exponents of Table 1, linear in alpha between them.
     rtol : float, default 0.02
-        Relative error that will do with "auto" [-].
+        Relative error that will do with "auto" [-]; `relative_error` of the result says which
+        bound holds.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
         the nearest alpha.
@@ -124,9 +122,9 @@ def cutting_force(
     "friction-free": xi = 0, or 10 xi <= 1 and 10 xi mu <= tau_w. Those of the fitted models are
     given by `models`. Where xi = tau_w = 0 the force is Gamma_o by any of them.
 
-    Limits at xi, tau_w, mu, R_w or Gamma_o = 0 are exact, at all of them together too; only
-    "eq9", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are both
-    0 and n > 1, is then given no friction, as for any Gamma_o = 0.
+    Limits of closed forms at xi, tau_w, mu, R_w or Gamma_o = 0 are exact, at all of them together
+    too; only "eq9", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are
+    both 0 and n > 1, is then given no friction, as for any Gamma_o = 0.
 
     References
     ----------
@@ -134,15 +132,21 @@ def cutting_force(
 
     Examples
     --------
-    >>> force = cutting_force(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
+    >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
+    >>> force = cutting_force(gel)
+    >>> print(f"{force.total:.1f} N/m")
+    7.3 N/m
+    >>> force.relative_error <= 0.02
+    True
+    >>> force = cutting_force(gel, model="eq13")
     >>> print(f"{force.total:.4f} = {force.cleavage:.4f} + {force.friction:.4f} + {force.wear:.4f}")
     9.5785 = 1.6000 + 0.2285 + 7.7500
-    >>> limit = cutting_force(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0), model="high-toughness")
+    >>> limit = cutting_force(gel, model="high-toughness")
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
-    if isinstance(model, str) and model == AUTO:
+    if is_auto(model):
         require_scene(scene)
         return _automatic(scene, rtol, extrapolate)
     chosen = force_model(model)
@@ -180,7 +184,7 @@ def dissipative_force(
     alpha: ArrayLike,
     friction_coefficient: ArrayLike,
     relative_wear_strength: ArrayLike,
-    model: str = "eq13",
+    model: str = AUTO,
     rtol: float = 0.02,
     extrapolate: bool = False,
 ) -> FloatOrArray:
@@ -196,7 +200,7 @@ def dissipative_force(
         xi [-].
     relative_wear_strength : float or array_like
         tau_w/mu [-].
-    model : str, default "eq13"
+    model : str, default "auto"
         As in `cutting_force`.
     rtol : float, default 0.02
         Relative error of this force that will do with "auto" [-].
@@ -230,14 +234,16 @@ def dissipative_force(
 
     Examples
     --------
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.4f}")
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.0f}")
+    33
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq13'):.4f}")
     46.6400
     >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
     1.5136
     """
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     values = (g, alpha, friction_coefficient, relative_wear_strength)
-    automatic = isinstance(model, str) and model == AUTO
+    automatic = is_auto(model)
     chosen = force_model("table" if automatic else model)
     in_g, in_alpha = chosen.accepted(extrapolate)
     quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)

@@ -35,12 +35,14 @@ from surrogate.errors import UnknownModelError
 from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
 __all__ = [
+    "AUTO",
     "FITTED_NAMES",
     "FORCE_MODELS",
     "ClosedForm",
     "ForceModel",
     "PowerLaw",
     "force_model",
+    "is_auto",
 ]
 
 
@@ -270,12 +272,26 @@ FORCE_MODELS = _by_name(
 """Every closed form by its name."""
 
 
+AUTO = "auto"
+"""The model that stands for the cheapest one that is exact enough."""
+
 FITTED_NAMES = ("power-law", "table", "gp")
 """The models fitted to finite-element solutions, in rising order of cost."""
 
 
+def is_auto(name: object) -> bool:
+    """Return whether a name is the one that stands for the cheapest exact enough model.
+
+    Examples
+    --------
+    >>> is_auto("auto"), is_auto("table")
+    (True, False)
+    """
+    return isinstance(name, str) and name == AUTO
+
+
 def force_model(name: object, argument: str = "model") -> ForceModel:
-    """Return the model of that name.
+    """Return the model of that name, which is not "auto".
 
     Raises
     ------
@@ -292,5 +308,5 @@ def force_model(name: object, argument: str = "model") -> ForceModel:
         return shipped().models[name]
     raise UnknownModelError(
         f"{argument} must be the name of a model, but {argument} = {shown(name)}; "
-        f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES))}."
+        f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES, AUTO))}."
     )

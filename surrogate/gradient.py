@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from surrogate.elementwise import apply
-from surrogate.force_models import force_model
+from surrogate.force_models import AUTO, FITTED_NAMES
+from surrogate.inside import require_inside
+from surrogate.one_model import one_model
+from surrogate.options import flag
 from surrogate.records import Record
 from surrogate.scene import NAMES, Scene, require_scene
 from surrogate.validation import FloatOrArray, defined
@@ -45,10 +48,10 @@ class ForceGradient(Record):
 
     >>> from surrogate.force import cutting_force
     >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
-    >>> slope = force_gradient(gel)
+    >>> slope = force_gradient(gel, "eq13")
     >>> print(f"{1.6 * slope.toughness + 0.25e-3 * slope.wire_radius:.4f} N/m")
     9.5785 N/m
-    >>> print(f"{cutting_force(gel).total:.4f} N/m")
+    >>> print(f"{cutting_force(gel, 'eq13').total:.4f} N/m")
     9.5785 N/m
     """
 
@@ -61,7 +64,9 @@ class ForceGradient(Record):
     model: str
 
 
-def force_gradient(scene: Scene, model: str = "eq13") -> ForceGradient:
+def force_gradient(
+    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
+) -> ForceGradient:
     """Return the analytic derivatives of the cutting force by every quantity of a scene.
 
     With F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B) at g = Gamma_o/(mu R_w), a prime for d/dg:
@@ -80,8 +85,14 @@ def force_gradient(scene: Scene, model: str = "eq13") -> ForceGradient:
     ----------
     scene : Scene
         What is cut and with which wire, in SI units.
-    model : str, default "eq13"
-        As in `cutting_force`.
+    model : str, default "auto"
+        As in `cutting_force`, but that "auto" is one model for all points: the cheapest whose A
+        and B meet `rtol` all over its domain.
+    rtol : float, default 0.02
+        Relative error of A and B that will do with "auto" [-]. It bounds the derivatives by xi
+        and tau_w; of the slopes of A and B, which are in the others, no error is known.
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain, as in `cutting_force`.
 
     Returns
     -------
@@ -94,9 +105,12 @@ def force_gradient(scene: Scene, model: str = "eq13") -> ForceGradient:
         If `scene` is not a `Scene`.
     UnknownModelError
         If there is no such model.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
     DomainError
-        If the model does not reach to the scene's alpha or g, or if a derivative has no limit,
-        which is so only where Gamma_o = 0 or mu R_w = 0 and the model is not a closed form.
+        If alpha is outside Table 1 for "eq9"; if g or alpha is outside the domain of a fitted
+        model and `extrapolate` is not set; or if a derivative has no limit, which is so only where
+        Gamma_o = 0 or mu R_w = 0 and the model is not a closed form.
 
     Notes
     -----
@@ -110,15 +124,25 @@ def force_gradient(scene: Scene, model: str = "eq13") -> ForceGradient:
 
     Examples
     --------
-    >>> slope = force_gradient(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
+    >>> slope = force_gradient(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0), "eq13")
     >>> print(f"{slope.toughness:.3f} N/m more force for 1 J/m2 more toughness")
     1.100 N/m more force for 1 J/m2 more toughness
     >>> print(f"{1e-6 * slope.wire_radius:.6f} N/m more for 1 um more radius")
     0.031274 N/m more for 1 um more radius
+
+    By finite elements far less reaches the force, as the tougher gel wears along a shorter arc:
+
+    >>> slope = force_gradient(Scene(685.0, 1.6, 0.25e-3, 0.0, 7750.0))
+    >>> slope.model, slope.toughness < 0.5
+    ('table', True)
     """
-    chosen = force_model(model)
+    chosen, extrapolate = one_model(model, rtol), flag("extrapolate", extrapolate)
     require_scene(scene)
-    chosen.stiffening.checked(scene.stiffening_exponent)
+    if chosen.name not in FITTED_NAMES:
+        chosen.stiffening.checked(scene.stiffening_exponent)
+    elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
+        mu, gamma, radius, _, _, alpha = scene.values()
+        require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
     with np.errstate(all="ignore"):
         slopes = apply(chosen.gradient, scene.values(), (float,) * 6)
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"

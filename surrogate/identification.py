@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.cuts import Array, series_of_cuts
+from surrogate.force_models import AUTO
 from surrogate.identified import Identification
 from surrogate.known import NOTHING_KNOWN, known
 from surrogate.linear_fit import fit_line, is_linear
+from surrogate.one_model import one_model
 from surrogate.profile_fit import fit_profile
 from surrogate.validation import Quantity, one_number
 
@@ -30,7 +32,8 @@ def identify(
     stiffening_exponent: float = 2.0,
     force_std: ArrayLike | None = None,
     wire_diameter: ArrayLike | None = None,
-    model: str = "eq13",
+    model: str = AUTO,
+    rtol: float = 0.02,
     confidence: float = 0.95,
     toughness_max: float | None = None,
     wear_strength: float | None = None,
@@ -44,14 +47,14 @@ def identify(
 
         F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B),
 
-    which is linear in Gamma_o and tau_w for the paper's closed forms: for Eq. (13),
-    F_ss/T - 4 xi mu R_w = (1 + xi) Gamma_o + 4 R_w tau_w. The two are then found by weighted linear
-    least squares.
+    the misfit is followed along Gamma_o of 0 or more, with the best tau_w of 0 or more for each,
+    over all that the forces, the model and a bound allow. It may have several minima, because A
+    rises and falls with g: the best one is the estimate, all are in `profile.modes`. Intervals hold
+    what the misfit admits.
 
-    For any other model, or where a bound, a value or a prior is given, the misfit is followed along
-    Gamma_o of 0 or more, with the best tau_w of 0 or more for each, over all that the forces, the
-    model and the bound allow. It may have several minima, because A rises and falls with g: the
-    best one is the estimate, all are in `profile.modes`. Intervals hold what the misfit admits.
+    The paper's closed forms are linear in Gamma_o and tau_w: Eq. (13) is
+    F_ss/T - 4 xi mu R_w = (1 + xi) Gamma_o + 4 R_w tau_w. With them, and where no bound, value or
+    prior is given, the two are found by weighted linear least squares.
 
     The friction coefficient CANNOT be identified: in Eq. (13) it only multiplies terms that
     Gamma_o and tau_w already have, so that any xi fits equally well. It has to be given.
@@ -77,9 +80,13 @@ def identify(
         intervals use Student's t.
     wire_diameter : array_like, shape (n,), optional
         2 R_w [m], instead of `wire_radius`.
-    model : str, default "eq13"
-        Any force model that has wear, see `FORCE_MODELS`; "eq13", "low-toughness" (Eq. 12) and
-        "friction-free" (Eq. 15) are linear in both unknowns.
+    model : str, default "auto"
+        Any force model that has wear, see `models`. "auto" is one model for all toughnesses: the
+        cheapest whose A and B meet `rtol` all over its domain. "eq13", "low-toughness" (Eq. 12)
+        and "friction-free" (Eq. 15) are linear in both unknowns.
+    rtol : float, default 0.02
+        Relative error of A and B that will do with "auto" [-]. What it may do to the estimates is
+        said by `model_error`; the intervals do not contain it.
     confidence : float, default 0.95
         Probability that each interval states, of each estimate by itself [-].
     toughness_max : float, optional
@@ -110,6 +117,8 @@ def identify(
         If there is no such model.
     DomainError
         If the model does not reach to alpha, or covers no toughness for all of the wires.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
 
     Notes
     -----
@@ -119,7 +128,8 @@ def identify(
     the order of the curvature where it is not. Near the limits Gamma_o = 0 and tau_w = 0 they hold
     the truth at least about as often as stated.
 
-    Range of validity: that of the force model. Eq. (13) takes its wear term from Eq. (11), which
+    Range of validity: that of the force model; a fitted one is not continued beyond its domain, so
+    that it ends the search. Eq. (13) takes its wear term from Eq. (11), which
     the paper found for g <= 1; beyond it a warning is given. A negative estimate is reported as it
     is.
 
@@ -130,7 +140,10 @@ def identify(
 
     Examples
     --------
-    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    By Eq. (13):
+
+    >>> radius, force = [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2]
+    >>> fit = identify(radius, force, shear_modulus=685.0, model="eq13")
     >>> print(f"{fit.toughness:.4f} +- {fit.toughness_std:.4f} J/m2")
     1.6250 +- 0.1257 J/m2
     >>> print(f"{fit.wear_strength:.1f} +- {fit.wear_strength_std:.1f} Pa")
@@ -140,14 +153,19 @@ def identify(
 
     With a toughness of at most 1.5 J/m2:
 
-    >>> fit = identify(
-    ...     [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 685.0, toughness_max=1.5
-    ... )
+    >>> fit = identify(radius, force, 685.0, model="eq13", toughness_max=1.5)
     >>> print(f"{fit.toughness:.4f} J/m2, {fit.wear_strength:.1f} Pa")
     1.5000 J/m2, 7831.5 Pa
     >>> print(fit.undecided[0])
     it is the bound of 1.5 J/m2, not the forces, that limits the toughness above
+
+    By finite elements the arc of contact changes with the toughness, and more than one may fit:
+
+    >>> fit = identify(radius, force, 685.0)
+    >>> fit.model, len(fit.profile.modes) > 1
+    ('table', True)
     """
+    chosen = one_model(model, rtol).name
     given = known(
         toughness_max, wear_strength, toughness_prior, wear_strength_prior, force_std is not None
     )
@@ -161,10 +179,10 @@ def identify(
     )
     probability = one_number(CONFIDENCE, confidence)
     fit: dict[str, Any]
-    if is_linear(model) and given == NOTHING_KNOWN:
-        fit = fit_line(cuts, model)
+    if is_linear(chosen) and given == NOTHING_KNOWN:
+        fit = fit_line(cuts, chosen)
     else:
-        fit = fit_profile(cuts, model, given, probability, further_radii)
+        fit = fit_profile(cuts, chosen, given, probability, further_radii)
     weight, residuals = cuts.weight, fit["residuals"]
     dof = cuts.force.size + given.facts - 2
     misfit, covariance = fit.pop("misfit"), fit.pop("unit_covariance")
@@ -185,7 +203,7 @@ def identify(
         shear_modulus=cuts.shear_modulus,
         friction_coefficient=cuts.friction_coefficient,
         stiffening_exponent=cuts.stiffening_exponent,
-        model=model,
+        model=chosen,
         confidence=probability,
         known=given,
     )

@@ -64,9 +64,14 @@ class Identification:
         given.
     further_wire : FurtherWire or None
         The wire that would tell most about what `undecided` names; None without `profile`.
+    model_error : tuple of float, or None
+        How far the measured error bounds of a fitted model's A and B can move Gamma_o [J/m2] and
+        tau_w [Pa] at most, to first order; None for closed forms, whose errors nobody states.
 
     Notes
     -----
+    Standard errors and intervals are those of the forces' scatter; `model_error` comes on top.
+
     With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
     errors and covariance are those of the force's derivatives at the estimate.
 
@@ -80,7 +85,7 @@ class Identification:
     Examples
     --------
     >>> from surrogate.identification import identify
-    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], shear_modulus=685.0)
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 685.0, model="eq13")
     >>> print(f"l_w = {1e6 * fit.wear_length:.1f} +- {1e6 * fit.wear_length_std:.1f} um")
     l_w = 209.7 +- 18.5 um
     """
@@ -105,6 +110,7 @@ class Identification:
     known: Known = NOTHING_KNOWN
     profile: Profile | None = None
     further_wire: FurtherWire | None = None
+    model_error: tuple[float, float] | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -186,7 +192,7 @@ class Identification:
     @property
     def transition_radius(self) -> float:
         """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
-        return float(transition_radius(self.scene(1.0))) if self.is_physical else np.nan
+        return float(transition_radius(self.scene(1.0), "eq13")) if self.is_physical else np.nan
 
     @property
     def wear_length_std(self) -> float:
@@ -248,7 +254,7 @@ class Identification:
 
     def predict_std(self, wire_radius: ArrayLike) -> Array:
         """Return the standard error of the fitted F_ss/T [N/m] for wires of any radius [m]."""
-        columns = self._columns(wire_radius)
+        columns = self.force_slopes(wire_radius)
         variance = np.einsum("...i,ij,...j", columns, self.covariance, columns)
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
@@ -278,8 +284,14 @@ class Identification:
             model.g.checked(g)
         return forces_of(model, self.cuts, toughness, wear_strength, radius.reshape(-1))
 
-    def _columns(self, wire_radius: ArrayLike) -> Array:
-        """Return the derivatives of the force by toughness and wear strength, last axis 2."""
+    def force_slopes(self, wire_radius: ArrayLike) -> Array:
+        """Return the derivatives of the force by toughness [-] and wear strength [m], last axis 2.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or not a number.
+        """
         if self.profile is None:
             return self._linear_form(wire_radius)[0]
         radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))

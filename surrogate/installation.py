@@ -180,9 +180,9 @@ def _test_closed_forms() -> str:
     from surrogate import Scene, cutting_force
 
     scene = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
-    force = cutting_force(scene).total
+    force = cutting_force(scene, "eq13").total
     _expect("Eq. (13)", float(force), 1.1 * 1.6 + 4.0 * (0.1 * 685.0 + 7750.0) * 0.25e-3)
-    many = cutting_force(Scene(685.0, 1.6, np.full(3, 0.25e-3), 0.1, 7750.0)).total
+    many = cutting_force(Scene(685.0, 1.6, np.full(3, 0.25e-3), 0.1, 7750.0), "eq13").total
     _expect("Eq. (13) of an array", float(np.max(many)), float(force), 0.0)
     return f"F_ss/T = {force:.4f} N/m"
 
@@ -191,7 +191,7 @@ def _test_identification() -> str:
     from surrogate import identify, read_measurements
 
     cuts = read_measurements(model_file("paam-wire-cutting.csv"))
-    fit = identify(cuts.wire_radius, cuts.force, 685.0)
+    fit = identify(cuts.wire_radius, cuts.force, 685.0, model="eq13")
     _expect("Gamma_o", fit.toughness, 1.6, 1e-9)
     _expect("tau_w", fit.wear_strength, 7750.0, 1e-9)
     return f"Gamma_o = {fit.toughness:.4f} J/m2, tau_w = {fit.wear_strength:.1f} Pa"
@@ -207,14 +207,19 @@ def _test_maps() -> str:
 
 
 def _test_models() -> str:
-    from surrogate import FORCE_MODELS, Scene, cutting_force
+    from surrogate import Scene, cutting_force, models
 
     scene = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.0)
-    for name in FORCE_MODELS:
+    names = [model.name for model in models() if model.available]
+    for name in names:
         force = cutting_force(scene, model=name)
         parts = force.cleavage + force.friction + force.wear
         _expect(f"the sum of the parts of {name}", float(parts), float(force.total), 0.0)
-    return ", ".join(FORCE_MODELS)
+    if "gp" in names:
+        chosen, process = cutting_force(scene), cutting_force(scene, "gp")
+        bound = 2.0 * float(chosen.relative_error or 0.0)
+        _expect(f"the force by {chosen.model}", float(chosen.total), float(process.total), bound)
+    return ", ".join(names)
 
 
 _SELF_TESTS = {

@@ -89,4 +89,5 @@ def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
         "unit_covariance": fit.covariance,
         "condition": fit.condition,
         "leverage": fit.leverage,
+        "model_error": None,
     }

@@ -13,6 +13,7 @@ from surrogate.further_wire import further_wire, range_of_wires
 from surrogate.known import Known
 from surrogate.least_squares import solve_least_squares
 from surrogate.misfit import Misfit
+from surrogate.model_error import contact_bounds
 from surrogate.profile import profile_misfit
 from surrogate.statistics import normal_quantile, student_quantile
 from surrogate.validation import one_number, shown
@@ -65,7 +66,7 @@ def fit_profile(
     best = profile.modes[0]
     at_best = np.array([best.toughness])
     residuals = misfit.at(at_best).residuals[0]
-    covariance, leverage, condition = _linearised(misfit, best.toughness, best.wear_strength)
+    linearised = _linearised(misfit, best.toughness, best.wear_strength)
     scatter = np.full_like(residuals, np.sqrt(best.misfit / max(dof, 1)))
     std = scatter if cuts.force_std is None else cuts.force_std
     return {
@@ -73,9 +74,7 @@ def fit_profile(
         "wear_strength": best.wear_strength,
         "residuals": residuals,
         "misfit": best.misfit,
-        "unit_covariance": covariance,
-        "leverage": leverage,
-        "condition": condition,
+        **linearised,
         "profile": profile,
         "further_wire": further_wire(misfit, profile, std, searched),
     }
@@ -98,10 +97,8 @@ def _searched(cuts: Cuts, further_radii: object) -> tuple[float, float]:
     return smallest, largest
 
 
-def _linearised(
-    misfit: Misfit, toughness: float, wear_strength: float
-) -> tuple[Array, Array, float]:
-    """Return covariance, leverages and condition of the force's derivatives at the estimate.
+def _linearised(misfit: Misfit, toughness: float, wear_strength: float) -> dict[str, Any]:
+    """Return what follows from the force's derivatives at the estimate.
 
     As if no limit held the estimate; all nan where a derivative is infinite, as at Gamma_o = 0.
     """
@@ -114,7 +111,37 @@ def _linearised(
     free = slice(0, 1 if known.wear_strength is not None else 2)
     covariance = np.zeros((2, 2))
     if not np.all(np.isfinite(design)) or not np.all(np.any(design[:, free], axis=0)):
-        return covariance + np.nan, weight * np.nan, np.nan
+        return _named(covariance + np.nan, weight * np.nan, np.nan, (np.nan, np.nan))
     fit = solve_least_squares(design[:, free], design[:, 0])
     covariance[free, free] = fit.covariance
-    return covariance, fit.leverage[: weight.size], fit.condition
+    bounds = _force_bounds(misfit, toughness, wear_strength)
+    shifts = None
+    if bounds is not None:  # each force off by its bound, all to the worse side
+        per_force = np.abs(covariance @ design[: weight.size].T)
+        gamma, tau = (per_force @ (weight * bounds)).tolist()
+        shifts = gamma, tau
+    return _named(covariance, fit.leverage[: weight.size], fit.condition, shifts)
+
+
+def _named(
+    covariance: Array, leverage: Array, condition: float, shifts: tuple[float, float] | None
+) -> dict[str, Any]:
+    return {
+        "unit_covariance": covariance,
+        "leverage": leverage,
+        "condition": condition,
+        "model_error": shifts,
+    }
+
+
+def _force_bounds(misfit: Misfit, toughness: float, wear_strength: float) -> Array | None:
+    """Return how far off the model's force on each wire may be [N/m], or None if nobody knows."""
+    cuts, model = misfit.cuts, misfit.model
+    g = toughness / (cuts.shear_modulus * cuts.wire_radius)
+    bounds = contact_bounds(model, g, cuts.stiffening_exponent)
+    if bounds is None:
+        return None
+    arc, load = model.contact(("arc", "normal_load"), g, cuts.stiffening_exponent)
+    stiffness = cuts.friction_coefficient * cuts.shear_modulus
+    stress = wear_strength * arc * bounds[0] + stiffness * load * bounds[1]
+    return np.asarray(2.0 * cuts.wire_radius * stress)

@@ -20,7 +20,7 @@ def profile_record(fit: Identification) -> dict[str, Any]:
     Examples
     --------
     >>> from surrogate.identification import identify
-    >>> fit = identify([1e-4, 2e-4, 4e-4], [4.7, 7.9, 13.9], 685.0, toughness_max=1.0)
+    >>> fit = identify([1e-4, 2e-4, 4e-4], [4.7, 7.9, 13.9], 685.0, model="eq13", toughness_max=1.0)
     >>> [round(mode["toughness"], 3) for mode in profile_record(fit)["modes"]]
     [1.0]
     """

@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from surrogate.elementwise import apply, quotient
 from surrogate.errors import InputError
 from surrogate.force import cutting_force
-from surrogate.force_models import ForceModel, force_model
+from surrogate.force_models import AUTO, ForceModel
 from surrogate.gradient import force_gradient
+from surrogate.model_error import contact_std
+from surrogate.one_model import one_model
 from surrogate.options import mapping
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 from surrogate.validation import FloatOrArray, Quantity, broadcast_shape, one_number, shown
@@ -49,15 +51,15 @@ class UncertainForce:
     contributions : mapping of str to float or ndarray
         Standard deviation that each uncertain quantity would cause alone [N/m].
     model_std : float, ndarray or None
-        Standard deviation that the model's own error causes [N/m]; None where the model knows
-        none, which does not mean that it is exact.
+        Standard deviation that the model's own error causes [N/m]; None for closed forms, which
+        know none, which does not mean that they are exact; nan outside a fitted model's domain.
     model : str
         Name of the model.
 
     Examples
     --------
     >>> gel = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
-    >>> force = propagate(gel, {"toughness": 0.2, "wear_strength": 500.0})
+    >>> force = propagate(gel, {"toughness": 0.2, "wear_strength": 500.0}, "eq13")
     >>> {name: round(std, 3) for name, std in force.contributions.items()}
     {'toughness': 0.2, 'wear_strength': 0.5}
     """
@@ -72,7 +74,9 @@ class UncertainForce:
 def propagate(
     scene: Scene,
     std: Mapping[str, ArrayLike],
-    model: str = "eq13",
+    model: str = AUTO,
+    rtol: float = 0.02,
+    extrapolate: bool = False,
     *,
     correlation: Correlations | None = None,
 ) -> UncertainForce:
@@ -80,7 +84,8 @@ def propagate(
 
     To first order, with the derivatives of `force_gradient`: the variance is the sum of
     (dF/dp)^2 std(p)^2 over the quantities p, plus 2 rho (dF/dp) (dF/dq) std(p) std(q) for each
-    pair of correlated ones, plus the variance of the model's own A and B where it knows one.
+    pair of correlated ones, plus the variance of a fitted model's own A and B: those of "gp"
+    itself; of the others those of an error of any size up to the measured bound, bound^2/3.
 
     Parameters
     ----------
@@ -89,8 +94,13 @@ def propagate(
     std : mapping of str to float or array_like
         Standard error of each uncertain quantity, by its name in `Scene` and in its unit
         [Pa, J/m^2, m or -]; what is left out is taken as exact. Arrays broadcast with the scene.
-    model : str, default "eq13"
-        As in `cutting_force`.
+    model : str, default "auto"
+        As in `force_gradient`.
+    rtol : float, default 0.02
+        Relative error of A and B that will do with "auto" [-].
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain, as in `cutting_force`; what error
+        it has there is not known, and std is nan.
     correlation : mapping of (str, str) to float, optional
         Correlation of the errors of pairs of these quantities [-]; 0 for those left out. From
         an `Identification`, that of toughness and wear strength is its `correlation`.
@@ -108,7 +118,7 @@ def propagate(
         each other.
     UnknownModelError
         If there is no such model.
-    DomainError
+    DomainError, AccuracyError
         As `force_gradient`.
 
     Notes
@@ -121,24 +131,27 @@ def propagate(
     References
     ----------
     arXiv:2412.02021, Eqs. (13), (S1) and (S2).
-    JCGM 100:2008, Guide to the expression of uncertainty in measurement, section 5.
+    JCGM 100:2008, Guide to the expression of uncertainty in measurement, sections 4.3.7 and 5.
 
     Examples
     --------
     >>> gel = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
     >>> errors = {"toughness": 0.2, "wear_strength": 500.0}
     >>> force = propagate(gel, errors)
+    >>> print(f"{force.total:.0f} +- {force.std:.1f} N/m by the model {force.model!r}")
+    7 +- 0.4 N/m by the model 'table'
+    >>> force = propagate(gel, errors, "eq13")
     >>> print(f"{force.total:.3f} +- {force.std:.3f} N/m")
     9.350 +- 0.539 N/m
-    >>> force = propagate(gel, errors, correlation={("toughness", "wear_strength"): -0.9})
+    >>> force = propagate(gel, errors, "eq13", correlation={("toughness", "wear_strength"): -0.9})
     >>> print(f"{force.total:.3f} +- {force.std:.3f} N/m")
     9.350 +- 0.332 N/m
     """
     require_scene(scene)
-    chosen = force_model(model)
+    chosen = one_model(model, rtol)
     errors = _checked(std)
     rho = _correlation_matrix(list(errors), {} if correlation is None else correlation)
-    gradient = force_gradient(scene, model)
+    gradient = force_gradient(scene, chosen.name, extrapolate=extrapolate)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
         (np.zeros(scene.shape) if scene.shape else 0.0, *errors.values()),
@@ -146,7 +159,7 @@ def propagate(
     signed = {name: _times(getattr(gradient, name), error) for name, error in errors.items()}
     model_std = _model_std(chosen, scene)
     return UncertainForce(
-        cutting_force(scene, model).total,
+        cutting_force(scene, chosen.name, extrapolate=extrapolate).total,
         _combined(list(signed.values()), rho, model_std, scene.shape),
         {name: _number(np.abs(each)) for name, each in signed.items()},
         None if model_std is None else _number(model_std),
@@ -201,7 +214,7 @@ def _model_std(chosen: ForceModel, scene: Scene) -> Any:
     """Return the force's standard deviation from those of A and B, or None where there are none."""
     mu, gamma, radius, xi, wear, alpha = scene.values()
     with np.errstate(all="ignore"):
-        stds = chosen.contact_std(apply(quotient, (gamma, mu, radius)), alpha)
+        stds = contact_std(chosen, apply(quotient, (gamma, mu, radius)), alpha)
         if stds is None:
             return None
         arc, load = np.multiply(2.0 * radius, wear), np.multiply(2.0 * radius, xi) * mu

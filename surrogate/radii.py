@@ -18,15 +18,16 @@ from surrogate.elementwise import (
     quotient,
     where_normal,
 )
-from surrogate.force_models import force_model
+from surrogate.force_models import AUTO
+from surrogate.one_model import one_model
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import TOUGHNESS, WORK_OF_FRACTURE, FloatOrArray, defined
 
 __all__ = ["fracto_cohesive_transition_radius", "transition_radius", "wear_transition_radius"]
 
 
-def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
-    """Return the radius at which the two terms of Eq. (13), or of another model, are equal.
+def transition_radius(scene: Scene, model: str = AUTO, rtol: float = 0.02) -> FloatOrArray:
+    """Return the radius at which the two parts of the force are equal, those of Eq. (13) or others.
 
     The force is homogeneous of degree one in toughness and radius, so that by Euler's theorem it
     is the sum of Gamma_o dF/dGamma_o and R_w dF/dR_w: of what the radius does not change and what
@@ -38,8 +39,12 @@ def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
     scene : Scene
         What is cut, in SI units; mu [Pa], Gamma_o [J/m^2], xi [-], tau_w [Pa] and, for models
         that depend on it, alpha [-] play a part.
-    model : str, default "eq13"
-        As in `cutting_force`.
+    model : str, default "auto"
+        As in `cutting_force`, but that "auto" is one model for all radii: the cheapest whose A
+        and B meet `rtol` all over its domain.
+    rtol : float, default 0.02
+        Relative error of A and B that will do with "auto" [-]; that of the radius, in which their
+        slopes play a part, is not known.
 
     Returns
     -------
@@ -58,6 +63,8 @@ def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
     DomainError
         If Gamma_o and xi mu + tau_w are both 0: every radius would do; if the model does not
         reach to alpha or to the radius; or if it needs a shear modulus, which is 0.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
 
     Notes
     -----
@@ -71,9 +78,11 @@ def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
 
     Examples
     --------
-    >>> radius = transition_radius(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
-    >>> print(f"{radius:.4e} m")
+    >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
+    >>> print(f"{transition_radius(gel, model='eq13'):.4e} m")
     5.6277e-05 m
+    >>> transition_radius(gel) > 5.7e-05
+    True
     """
     require_scene(scene)
     quantities = (
@@ -85,7 +94,7 @@ def transition_radius(scene: Scene, model: str = "eq13") -> FloatOrArray:
     if model == "eq13":
         radius = apply(_transition, quantities)
     else:
-        radius = _under(model, (*quantities, scene.stiffening_exponent))
+        radius = _under(model, rtol, (*quantities, scene.stiffening_exponent))
     return defined("transition_radius", radius, "give a toughness, a friction or a wear strength")
 
 
@@ -170,10 +179,10 @@ def fracto_cohesive_transition_radius(
     return defined("fracto_cohesive_transition_radius", radius, remedy)
 
 
-def _under(model: str, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
+def _under(model: str, rtol: float, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
     from surrogate.model_transition import transition_under  # which a force does not need
 
-    chosen = force_model(model)
+    chosen = one_model(model, rtol)
     chosen.stiffening.checked(quantities[4])
     return transition_under(chosen, quantities)
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.elementwise import apply, product, ratio
-from surrogate.force import AUTO, CuttingForce, cutting_force
-from surrogate.force_models import force_model
+from surrogate.force import CuttingForce, cutting_force
+from surrogate.force_models import AUTO, force_model, is_auto
 from surrogate.options import flag
 from surrogate.records import Record
 from surrogate.scene import Scene, require_scene
@@ -69,7 +69,7 @@ class Regime(Record):
 
     Examples
     --------
-    >>> regime = classify(Scene(685.0, 1.6, [1e-6, 5e-5, 1e-2], wear_strength=7750.0))
+    >>> regime = classify(Scene(685.0, 1.6, [1e-6, 5e-5, 1e-2], wear_strength=7750.0), model="eq13")
     >>> regime.dominant.tolist()
     ['toughness-and-friction', 'transition', 'wear']
     >>> regime.contact.tolist()
@@ -84,7 +84,7 @@ class Regime(Record):
 def classify(
     scene: Scene,
     threshold: float = DOMINANT_SHARE,
-    model: str = SPLIT_MODEL,
+    model: str = AUTO,
     rtol: float = 0.02,
     extrapolate: bool = False,
 ) -> Regime:
@@ -97,7 +97,7 @@ def classify(
     threshold : float, default 2/3
         Share of the force from which a term dominates [-]: more than 0.5, so that only one can,
         up to 1. The default asks for twice as much as the other terms together.
-    model : str, default "eq13"
+    model : str, default "auto"
         The force model, as in `cutting_force`.
     rtol : float, default 0.02
         Relative error of the force that will do with "auto" [-].
@@ -107,12 +107,13 @@ def classify(
     Returns
     -------
     Regime
-        By Eq. (13), `dominant` is "toughness-and-friction" for (1 + xi) Gamma_o, which the radius
-        does not change, "wear" for 4 tau_w R_w, "friction-stiffness" for 4 xi mu R_w, and
-        "transition" where none reaches the threshold or the force is 0 or overflows. By another
-        model it is "cleavage", "friction" or "wear", the parts of a `CuttingForce`, or
-        "transition". `contact` is "indentation" where g is above the model's own value at which
-        the wire touches the crack tip, 1 where the model has none, and "far-field" otherwise.
+        `dominant` is "cleavage", "friction" or "wear", the parts of a `CuttingForce`, or
+        "transition" where none reaches the threshold or the force is 0 or overflows. By Eq. (13),
+        model "eq13", whose friction has two parts, it is "toughness-and-friction" for
+        (1 + xi) Gamma_o, which the radius does not change, "wear" for 4 tau_w R_w,
+        "friction-stiffness" for 4 xi mu R_w, or "transition". `contact` is "indentation" where g
+        is above the model's own value at which the wire touches the crack tip, 1 for closed forms,
+        and "far-field" otherwise.
 
     Raises
     ------
@@ -140,6 +141,8 @@ def classify(
     >>> regime = classify(Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0))
     >>> regime.dominant, regime.contact
     ('wear', 'indentation')
+    >>> classify(Scene(685.0, 1.6, 0.05e-3, wear_strength=7750.0), model="eq13").dominant
+    'transition'
     >>> share = 4 * 7750.0 * 0.25e-3 / (1.6 + 4 * 7750.0 * 0.25e-3)
     >>> print(f"{share:.3f}")
     0.829
@@ -174,7 +177,7 @@ def term_shares(scene: Scene, force: CuttingForce, model: str) -> dict[str, Floa
     Examples
     --------
     >>> scene = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
-    >>> shares = term_shares(scene, cutting_force(scene), "eq13")
+    >>> shares = term_shares(scene, cutting_force(scene, "eq13"), "eq13")
     >>> {name: round(share, 4) for name, share in shares.items()}
     {'toughness-and-friction': 0.1837, 'wear': 0.8091, 'friction-stiffness': 0.0072}
     """
@@ -198,7 +201,7 @@ def touching_toughness(model: str, alpha: FloatOrArray) -> FloatOrArray:
     >>> touching_toughness("eq13", 2.0)
     1.0
     """
-    own = getattr(force_model("table" if model == AUTO else model), "touching_toughness", None)
+    own = getattr(force_model("table" if is_auto(model) else model), "touching_toughness", None)
     return TOUCHING_TOUGHNESS if own is None else own(alpha)
 
 

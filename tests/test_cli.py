@@ -7,11 +7,13 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import asdict
 
 import pytest
 
-from surrogate import __version__
+from surrogate import FORCE_MODELS, Scene, __version__, classify, cutting_force, models
 from surrogate.cli import main
+from surrogate.force_models import FITTED_NAMES
 from surrogate.paths import model_file
 
 COMMANDS = ["force", "identify", "regime", "models"]
@@ -43,7 +45,7 @@ def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
 
 
 def test_example_prints_the_papers_numbers(capsys):
-    assert run("identify --example") == 0
+    assert run("identify --example --model eq13") == 0
     printed = capsys.readouterr().out
     for line in (
         "5 forces, read from the published line, from paam-wire-cutting.csv",
@@ -64,7 +66,7 @@ def test_example_prints_the_papers_numbers(capsys):
 
 
 def test_json_of_identify_holds_the_same_in_si_units(capsys):
-    assert run("identify --example --json") == 0
+    assert run("identify --example --model eq13 --json") == 0
     record = json.loads(capsys.readouterr().out)
     assert record["toughness"] == pytest.approx(1.6)
     assert record["wear_strength"] == pytest.approx(7750.0)
@@ -81,21 +83,58 @@ def test_json_of_identify_holds_the_same_in_si_units(capsys):
 def test_json_knows_no_nan(capsys, tmp_path):
     file = tmp_path / "two.csv"
     file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n0.1,2\n0.2,3\n")
-    assert run(f"identify {file} --shear-modulus 685 --json") == 0
+    assert run(f"identify {file} --shear-modulus 685 --model eq13 --json") == 0
     record = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert record["toughness"] == pytest.approx(1.0)
     assert record["toughness_std"] is None
 
 
 def test_force_and_regime_of_several_wires(capsys):
-    assert run(f"force {SCENE} --wire-radius 0.2mm 0.4mm --json") == 0
+    assert run(f"force {SCENE} --wire-radius 0.2mm 0.4mm --model eq13 --json") == 0
     wires = json.loads(capsys.readouterr().out)["wires"]
     assert [wire["total"] for wire in wires] == pytest.approx([1.6 + 6.2, 1.6 + 12.4])
     assert [wire["relative_error"] for wire in wires] == [None, None]  # nobody knows one
-    assert run(f"regime {SCENE} --wire-diameter 50um 0.5mm --json") == 0
+    assert run(f"regime {SCENE} --wire-diameter 50um 0.5mm --model eq13 --json") == 0
     wires = json.loads(capsys.readouterr().out)["wires"]
     assert [wire["wire_radius"] for wire in wires] == [25e-6, 0.25e-3]
     assert [wire["dominant"] for wire in wires] == ["toughness-and-friction", "wear"]
+
+
+def test_forces_and_regimes_are_by_default_those_of_the_library(capsys):
+    wires = f"{SCENE} --wire-radius 25um 0.2mm 2mm"
+    scene = Scene(685.0, 1.6, [25e-6, 0.2e-3, 2e-3], wear_strength=7750.0)
+    assert run(f"force {wires} --json") == 0
+    record, force = json.loads(capsys.readouterr().out), cutting_force(scene)
+    assert record["model"] == force.model
+    assert [wire["total"] for wire in record["wires"]] == force.total.tolist()
+    assert [wire["relative_error"] for wire in record["wires"]] == force.relative_error.tolist()
+    assert run(f"regime {wires} --json") == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["model"] == "auto"
+    assert [wire["dominant"] for wire in record["wires"]] == classify(scene).dominant.tolist()
+    assert run(f"force {wires} --rtol 0.5") == 0
+    assert re.search(r"\d %  +yes\n", capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("name", [*FORCE_MODELS, *FITTED_NAMES, "auto"])
+def test_every_model_can_be_named(name, capsys):
+    wire = f"{SCENE} --wire-radius 0.2mm --model {name}"
+    assert run(f"force {wire}") == 0
+    assert run(f"regime {wire}") == 0
+    assert run(f"force {SCENE} --wire-radius 1um --extrapolate --model {name}") == 0
+    assert f"Model {name}" in capsys.readouterr().out or name == "auto"
+
+
+def test_the_models_are_listed_with_domain_error_and_cost(capsys):
+    assert run("models --json") == 0
+    listed = json.loads(capsys.readouterr().out)["models"]
+    assert listed == [asdict(model) for model in models()]
+    assert run("models") == 0
+    printed = capsys.readouterr().out
+    for model in models():
+        line = next(each for each in printed.splitlines() if each.startswith(model.name))
+        assert model.domain in line
+        assert ("%" in line) == (model.error is not None)
 
 
 def test_options_replace_the_properties_of_a_file(capsys):
@@ -109,12 +148,14 @@ def test_options_replace_the_properties_of_a_file(capsys):
 
 
 def test_a_wire_and_a_toughness_of_nothing_have_a_force(capsys):
-    assert run("force --shear-modulus 0 --toughness 0 --wear-strength 1kPa --wire-radius 1mm") == 0
-    assert re.search(r"\n1 +unknown +4 +0 +0 +4 +yes", capsys.readouterr().out)
+    nothing = "--shear-modulus 0 --toughness 0 --wear-strength 1kPa --wire-radius 1mm"
+    assert run(f"force {nothing} --model eq13") == 0
+    printed = capsys.readouterr().out
+    assert re.search(r"\n1 +unknown +4 +0 +0 +4 +eq13 +unknown +yes", printed)
 
 
 def test_the_threshold_of_regimes(capsys):
-    wires = f"{SCENE} --wire-radius 0.1mm"  # wear is 66.0 % of the force
+    wires = f"{SCENE} --wire-radius 0.1mm --model eq13"  # wear is 66.0 % of the force
     for options, dominant in (("", "transition"), ("--threshold 0.65", "wear")):
         assert run(f"regime {wires} {options} --json") == 0
         assert json.loads(capsys.readouterr().out)["wires"][0]["dominant"] == dominant
@@ -123,7 +164,7 @@ def test_the_threshold_of_regimes(capsys):
 def test_two_forces_have_no_known_error(capsys, tmp_path):
     file = tmp_path / "two.csv"
     file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n0.1,2\n0.2,3\n")
-    assert run(f"identify {file} --shear-modulus 685") == 0
+    assert run(f"identify {file} --shear-modulus 685 --model eq13") == 0
     printed = capsys.readouterr().out
     assert re.search(r"Gamma_o +1 +J/m2 +unknown +unknown\n", printed)
     assert re.search(r"l_w = Gamma_o/tau_w +400 +unknown\n", printed)
@@ -166,6 +207,9 @@ def test_version(capsys):
         (f"regime {SCENE} --wire-radius 1mm --threshold 0.5", "more than 0.5"),
         ("identify --example --confidence 95", "0.95 for 95 %"),
         ("identify --example --model eq9", "not linear"),
+        ("identify --example --rtol 1e-9", "give rtol="),
+        (f"force {SCENE} --wire-radius 1um", "extrapolate"),
+        (f"regime {SCENE} --wire-radius 1mm --model eq99", "eq99"),
         ("identify --example --plot fit.doc", "choose .png, .pdf or .svg"),
         ("identify --example --plot missing/fit.png", "cannot be written"),
         ("identify --example --material missing.json", "missing.json cannot be read"),

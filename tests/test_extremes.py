@@ -5,6 +5,7 @@ Warnings are errors in the tests, so that no answer comes with a bare numpy warn
 
 import re
 from fractions import Fraction
+from functools import partial
 from itertools import product
 
 import mpmath
@@ -91,7 +92,7 @@ FUNCTIONS = {
         of_scene(lambda scene: scene.elasto_cohesive_length),
         some("shear_modulus", "toughness"),
     ),
-    "classify": (of_scene(lambda scene: surrogate.classify(scene).dominant), SCENE),
+    "classify": (of_scene(lambda scene: surrogate.classify(scene, model="eq13").dominant), SCENE),
     **{model: (of_scene(total(model)), SCENE) for model in surrogate.FORCE_MODELS},
     **{
         f"dissipative {model}": (
@@ -275,7 +276,7 @@ def test_general_force_is_accurate_at_every_size():
         quantities = (mu, gamma, radius, xi, tau)
         force = surrogate.general_force(*quantities)
         assert force == pytest.approx(rounded(exact), rel=1e-15, abs=0), quantities
-        total = surrogate.cutting_force(Scene(*quantities)).total
+        total = surrogate.cutting_force(Scene(*quantities), "eq13").total
         assert total == pytest.approx(force, rel=1e-15, abs=0), quantities
         array = surrogate.general_force(*[np.array([value, 1.0]) for value in quantities])
         assert array[0] == force, quantities
@@ -289,18 +290,19 @@ def test_dimensionless_toughness_is_accurate_at_every_size():
 
 
 def test_transition_radii_are_accurate_at_every_size():
+    transition_radius = partial(surrogate.transition_radius, model="eq13")
     for mu, gamma, xi, tau in product(SIZES, SIZES[1:], SIZES, SIZES):
         stress = Fraction(xi) * Fraction(mu) + Fraction(tau)
         scene = Scene(mu, gamma, 1.0, xi, tau)
         quantities = (mu, gamma, xi, tau)
         for function, toughness, wear in (
-            (surrogate.transition_radius, (1 + Fraction(xi)) * Fraction(gamma), stress),
+            (transition_radius, (1 + Fraction(xi)) * Fraction(gamma), stress),
             (surrogate.wear_transition_radius, Fraction(gamma), Fraction(tau)),
         ):
             exact = rounded(toughness / (4 * wear)) if wear else np.inf
             assert function(scene) == pytest.approx(exact, rel=1e-15, abs=5e-324), quantities
         arrays = Scene(*[np.array([value, 1.0]) for value in (mu, gamma, 1.0, xi, tau)])
-        assert surrogate.transition_radius(arrays)[0] == surrogate.transition_radius(scene)
+        assert transition_radius(arrays)[0] == transition_radius(scene)
 
 
 @pytest.mark.parametrize("alpha", [2.0, 5.0, 9.0])

@@ -11,7 +11,7 @@ SCENE = Scene(MU, GAMMA, RADIUS, XI, TAU)
 
 
 def test_parts_of_the_general_force():
-    force = cutting_force(SCENE)
+    force = cutting_force(SCENE, "eq13")
     assert force.cleavage == GAMMA
     assert force.friction == pytest.approx(XI * (GAMMA + 4 * MU * RADIUS), rel=1e-15)
     assert force.wear == pytest.approx(4 * TAU * RADIUS, rel=1e-15)
@@ -87,7 +87,7 @@ def test_domain_is_told_point_by_point():
     scene = Scene(1.0, [0.5, 2.0, 20.0], 1.0)
     assert cutting_force(scene, "low-toughness").in_domain.tolist() == [True, False, False]
     assert cutting_force(scene, "high-toughness").in_domain.tolist() == [False, False, True]
-    assert cutting_force(scene).in_domain.tolist() == [True] * 3
+    assert cutting_force(scene, "eq13").in_domain.tolist() == [True] * 3
 
 
 @pytest.mark.parametrize("alpha", [1.9, 9.1, [2.0, 10.0]])
@@ -97,7 +97,7 @@ def test_power_law_needs_a_tabulated_stiffening_exponent(alpha):
         cutting_force(scene, "eq9")
     with pytest.raises(surrogate.DomainError, match=r"alpha.*Table 1"):
         dissipative_force(20.0, alpha, 0.1, 0.0, model="eq9")
-    cutting_force(scene)
+    cutting_force(scene, "eq13")
 
 
 @pytest.mark.parametrize("model", ["eq12", "", None, 13, ["eq13"], np.array(["eq13"])])
@@ -144,17 +144,17 @@ def test_force_without_dissipation_is_the_toughness(model):
 
 
 def test_vanishing_radius_leaves_toughness_and_friction():
-    force = cutting_force(Scene(MU, GAMMA, 0.0, XI, TAU))
+    force = cutting_force(Scene(MU, GAMMA, 0.0, XI, TAU), "eq13")
     assert (force.total, force.wear) == (GAMMA + XI * GAMMA, 0.0)
 
 
 def test_vanishing_modulus_leaves_wear_and_the_friction_of_the_toughness():
-    force = cutting_force(Scene(0.0, GAMMA, RADIUS, XI, TAU))
+    force = cutting_force(Scene(0.0, GAMMA, RADIUS, XI, TAU), "eq13")
     assert (force.friction, force.wear) == (XI * GAMMA, 4 * (TAU * RADIUS))
 
 
 def test_vanishing_toughness_leaves_the_linear_terms():
-    force = cutting_force(Scene(MU, 0.0, RADIUS, XI, TAU))
+    force = cutting_force(Scene(MU, 0.0, RADIUS, XI, TAU), "eq13")
     assert force.cleavage == 0.0
     assert force.total == pytest.approx(4 * (XI * MU + TAU) * RADIUS, rel=1e-15)
 

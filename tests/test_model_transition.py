@@ -70,7 +70,7 @@ def test_a_search_finds_what_a_closed_form_says(register, elements_like, xi):
     register(AsEquation13())
     for tau in (0.0, 1e-20, 7750.0, 1e20):
         scene = replace(GEL, friction_coefficient=xi, wear_strength=tau)
-        expected = pytest.approx(transition_radius(scene), rel=1e-13)
+        expected = pytest.approx(transition_radius(scene, "eq13"), rel=1e-13)
         assert transition_radius(scene, "as-eq13") == expected
 
 

@@ -1,5 +1,6 @@
 """Identification under models that are not linear: minima, intervals, bounds, words."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -7,12 +8,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surrogate import DomainError, InputError, Scene, cutting_force, identify
+import surrogate
+from surrogate import DomainError, InputError, Scene, cutting_force
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
 from surrogate.known import Known
 from surrogate.misfit import Misfit
 from surrogate.validation import Quantity
+
+identify = partial(surrogate.identify, model="eq13")
 
 RADII = np.array([0.125e-3, 0.210e-3, 0.275e-3, 0.390e-3, 0.470e-3])
 WIDE = np.geomspace(0.02e-3, 2e-3, 6)

@@ -22,9 +22,9 @@ STD = {name: share * getattr(GEL, name) for name, share in RELATIVE.items()}
 
 
 def test_eq13_by_hand():
-    force = propagate(GEL, {"toughness": 0.2, "wire_radius": 5e-6})
+    force = propagate(GEL, {"toughness": 0.2, "wire_radius": 5e-6}, "eq13")
     parts = {"toughness": 1.1 * 0.2, "wire_radius": 4 * (68.5 + 7750.0) * 5e-6}
-    assert force.total == cutting_force(GEL).total
+    assert force.total == cutting_force(GEL, "eq13").total
     assert force.contributions == pytest.approx(parts)
     assert force.std == pytest.approx(np.hypot(*parts.values()))
     assert force.model_std is None
@@ -32,8 +32,8 @@ def test_eq13_by_hand():
 
 
 def test_what_is_exact_adds_nothing():
-    assert propagate(GEL, {}).std == 0.0
-    assert propagate(GEL, {"toughness": 0.0}).contributions == {"toughness": 0.0}
+    assert propagate(GEL, {}, "eq13").std == 0.0
+    assert propagate(GEL, {"toughness": 0.0}, "eq13").contributions == {"toughness": 0.0}
     frictionless = replace(GEL, toughness=0.0, stiffening_exponent=9.0)  # an infinite slope
     assert propagate(frictionless, {"toughness": 0.0}, "eq9").std == 0.0
     assert propagate(frictionless, {"toughness": 1e-9}, "eq9").std == np.inf
@@ -62,10 +62,11 @@ def test_correlated_errors(model, rho, elements):
 
 def test_the_error_of_an_identified_material_at_a_measured_wire_is_that_of_the_fit():
     radius = np.array([0.125e-3, 0.210e-3, 0.275e-3, 0.390e-3, 0.470e-3])
-    fit = identify(radius, [5.5, 8.0, 10.2, 13.6, 16.2], 685.0, force_std=0.2)
+    fit = identify(radius, [5.5, 8.0, 10.2, 13.6, 16.2], 685.0, force_std=0.2, model="eq13")
     force = propagate(
         fit.scene(radius),
         {"toughness": fit.toughness_std, "wear_strength": fit.wear_strength_std},
+        "eq13",
         correlation={("toughness", "wear_strength"): fit.correlation},
     )
     np.testing.assert_allclose(force.std, fit.predict_std(radius), rtol=1e-12)
@@ -99,7 +100,8 @@ def test_arrays_broadcast_and_are_numbers_one_by_one(register, elements_like):
 @pytest.mark.parametrize("size", [0.0, 5e-324, 1e-300, 1e300])
 @pytest.mark.parametrize("name", NAMES)
 def test_errors_of_any_size(name, size):
-    force = propagate(GEL, {name: size, "toughness" if name != "toughness" else "wire_radius": 0.0})
+    other = "toughness" if name != "toughness" else "wire_radius"
+    force = propagate(GEL, {name: size, other: 0.0}, "eq13")
     assert force.std == pytest.approx(force.contributions[name], rel=1e-14, abs=0.0)
     assert force.std >= 0.0
 

@@ -63,8 +63,8 @@ def test_units_do_not_matter(scene, model, length, stress):
     assert cutting_force(other, model).total == expected
     g = pytest.approx(scene.dimensionless_toughness, rel=10 * EPS)
     assert other.dimensionless_toughness == g
-    radius = pytest.approx(surrogate.transition_radius(scene) * length, rel=10 * EPS)
-    assert surrogate.transition_radius(other) == radius
+    radius = pytest.approx(surrogate.transition_radius(scene, "eq13") * length, rel=10 * EPS)
+    assert surrogate.transition_radius(other, "eq13") == radius
 
 
 @given(POSITIVE_SCENES, st.integers(-60, 60), st.integers(-60, 60))
@@ -76,7 +76,7 @@ def test_regimes_do_not_depend_on_units(scene, length, stress):
         scene.friction_coefficient,
         scene.wear_strength * 2.0**stress,
     )
-    assert surrogate.classify(other) == surrogate.classify(scene)
+    assert surrogate.classify(other, model="eq13") == surrogate.classify(scene, model="eq13")
 
 
 @given(
@@ -113,7 +113,7 @@ def test_power_law_grows_with_toughness_and_friction_and_falls_with_stiffening(s
 def test_the_general_force_tends_to_that_of_high_toughness(scene):
     linear = 4 * (scene.friction_coefficient * scene.shear_modulus + scene.wear_strength)
     sharp = replace(scene, wire_radius=0.25 * EPS * scene.toughness / linear)
-    general = cutting_force(sharp).total
+    general = cutting_force(sharp, "eq13").total
     assert general == pytest.approx(cutting_force(sharp, "high-toughness").total, rel=2 * EPS)
 
 
@@ -121,14 +121,14 @@ def test_the_general_force_tends_to_that_of_high_toughness(scene):
 def test_the_general_force_tends_to_that_of_low_toughness(scene):
     # They differ by xi Gamma_o, which 4 xi mu R_w outweighs by 4/g.
     soft = replace(scene, toughness=EPS * scene.shear_modulus * scene.wire_radius)
-    general = cutting_force(soft).total
+    general = cutting_force(soft, "eq13").total
     assert general == pytest.approx(cutting_force(soft, "low-toughness").total, rel=4 * EPS)
 
 
 @given(POSITIVE_SCENES)
 def test_without_friction_three_models_are_one(scene):
     frictionless = replace(scene, friction_coefficient=0.0)
-    force = cutting_force(frictionless)
+    force = cutting_force(frictionless, "eq13")
     for model in ("low-toughness", "friction-free"):
         assert cutting_force(frictionless, model).total == force.total
 
@@ -149,10 +149,10 @@ def test_forces_of_arrays_are_those_of_numbers_bit_for_bit(scenes, model):
 def test_equations_and_regimes_of_arrays_are_those_of_numbers(scenes):
     together = Scene(*zip(*(scene.values() for scene in scenes), strict=True))
     forces = surrogate.general_force(*together.values()[:5])
-    regimes = surrogate.classify(together)
+    regimes = surrogate.classify(together, model="eq13")
     for i, scene in enumerate(scenes):
         assert forces[i] == surrogate.general_force(*scene.values()[:5])
-        regime = surrogate.classify(scene)
+        regime = surrogate.classify(scene, model="eq13")
         assert (regimes.dominant[i], regimes.contact[i]) == (regime.dominant, regime.contact)
 
 
@@ -167,7 +167,7 @@ def test_dissipation_of_arrays_is_that_of_numbers(points, model):
 
 @given(SCENES)
 def test_only_one_term_can_dominate_and_it_is_the_largest(scene):
-    regime = surrogate.classify(scene)
+    regime = surrogate.classify(scene, model="eq13")
     mu, gamma, radius, xi, wear, _ = scene.values()
     terms = {
         "toughness-and-friction": (1 + xi) * gamma,

@@ -1,16 +1,20 @@
 """Transition radii: the paper's two values, and the third that Eq. (13) defines."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+import surrogate
 from surrogate import (
     DomainError,
     Scene,
-    cutting_force,
     fracto_cohesive_transition_radius,
-    transition_radius,
     wear_transition_radius,
 )
+
+cutting_force = partial(surrogate.cutting_force, model="eq13")
+transition_radius = partial(surrogate.transition_radius, model="eq13")
 
 GEL = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
 

@@ -129,7 +129,7 @@ def test_the_regime_changes_across_a_boundary_of_dominance(case):
             middle = line[len(line) // 2]
             steps = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1], [1, 0], [0, 1], [-1, 0], [0, -1]])
             around = middle * (1.0 + 1e-6 * steps)
-            found = set(classify(made.scene_at(*around.T)).dominant)
+            found = set(classify(made.scene_at(*around.T), model="eq13").dominant)
             assert found == {"transition", *one.about}
 
 
@@ -138,7 +138,7 @@ def test_the_transition_radius_is_on_the_map():
     (line,) = boundaries(made, "equal-terms", ("toughness-and-friction", "wear"))[0].lines
     # with stiffness added to wear, the radius is a little smaller than this line's
     scene = Scene(685.0, line[3, 1], 1.0, 0.0, 7750.0)
-    assert line[3, 0] == pytest.approx(1.1 * transition_radius(scene), rel=1e-12)
+    assert line[3, 0] == pytest.approx(1.1 * transition_radius(scene, "eq13"), rel=1e-12)
 
 
 def test_exact_lines_and_contours_agree():
@@ -203,7 +203,7 @@ def test_validity_and_difference_of_a_limit():
     assert made.force.relative_error is None
     g = made.scene.dimensionless_toughness
     np.testing.assert_array_equal(made.force.in_domain, g <= 1.0)
-    expected = cutting_force(made.scene).total / made.force.total - 1.0
+    expected = cutting_force(made.scene, "eq13").total / made.force.total - 1.0
     np.testing.assert_array_equal(made.difference("eq13"), expected)
     assert made.force.in_domain.any()
     assert not made.force.in_domain.all()

@@ -1,10 +1,31 @@
 """Regimes: dominating terms and contact, with their thresholds."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
-from surrogate import InputError, Scene, classify, transition_radius
-from surrogate.regimes import CONTACTS, DOMINANCES
+import surrogate
+from surrogate import InputError, Scene, cutting_force
+from surrogate.regimes import CONTACTS, DOMINANCES, PARTS
+
+classify = partial(surrogate.classify, model="eq13")
+transition_radius = partial(surrogate.transition_radius, model="eq13")
+
+
+def test_by_default_the_parts_of_the_default_force_are_compared():
+    gel = Scene(685.0, 1.6, [2.5e-5, 1e-4, 5e-4], [0.0, 0.0, 3.0], 7750.0)
+    force, regime = cutting_force(gel), surrogate.classify(gel)
+    for i, dominant in enumerate(regime.dominant):
+        shares = [part[i] / force.total[i] for part in (force.cleavage, force.friction, force.wear)]
+        largest = max(range(3), key=shares.__getitem__)
+        above = shares[largest] >= regime.threshold
+        assert dominant == (PARTS[1 + largest] if above else "transition")
+    assert regime == surrogate.classify(gel, model="auto")
+    with pytest.raises(surrogate.DomainError, match="extrapolate=True"):
+        surrogate.classify(Scene(685.0, 1.6, 1e-6, wear_strength=7750.0))
+    thin = surrogate.classify(Scene(685.0, 1.6, 1e-6, wear_strength=7750.0), extrapolate=True)
+    assert thin.dominant == "cleavage"
 
 
 def test_every_wire_of_the_paper_is_in_the_wear_regime_and_indents():
