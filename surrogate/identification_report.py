@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from textwrap import fill
 from typing import Any
 
 from surrogate.alternatives import alternatives_record, alternatives_text
 from surrogate.data import Material
-from surrogate.errors import DomainError
 from surrogate.identification import Identification
 from surrogate.linear_fit import is_linear
 from surrogate.profile_report import profile_record, profile_text
-from surrogate.radii import fracto_cohesive_transition_radius, transition_radius
+from surrogate.radii import fracto_cohesive_transition_radius
 from surrogate.regimes import classify
 from surrogate.report import Record, wire_rows
 from surrogate.tables import UNKNOWN, number, table
@@ -86,10 +84,8 @@ def _transition_radii(fit: Identification, material: Material, lengths: Record) 
         ),
         "wear": _length("l_w/4", fit.wear_transition_radius, fit.wear_transition_radius_std),
     }
-    if not is_linear(fit.model):
-        with suppress(DomainError):  # beyond the model
-            radius = transition_radius(fit.scene(1.0), fit.model)
-            radii["model"] = _length(f"model '{fit.model}'", float(radius), None)
+    if not is_linear(fit.model) and not math.isnan(fit.model_transition_radius):
+        radii["model"] = _length(f"model '{fit.model}'", fit.model_transition_radius, None)
     if l_f := lengths.get("fracto_cohesive_pure_shear"):
         radius = fracto_cohesive_transition_radius(
             material.pure_shear_toughness,  # type: ignore[arg-type]

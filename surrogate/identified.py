@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.cuts import PREDICTED_RADIUS, Array, Cuts
+from surrogate.errors import DomainError
 from surrogate.fit_warnings import fit_warnings
 from surrogate.force_models import force_model
 from surrogate.further_wire import FurtherWire, forces_of
@@ -193,6 +195,14 @@ class Identification:
     def transition_radius(self) -> float:
         """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
         return float(transition_radius(self.scene(1.0), "eq13")) if self.is_physical else np.nan
+
+    @property
+    def model_transition_radius(self) -> float:
+        """Radius at which both parts of the model's force are equal [m]; nan beyond the model."""
+        with suppress(DomainError):
+            if self.is_physical:
+                return float(transition_radius(self.scene(1.0), self.model))
+        return np.nan
 
     @property
     def wear_length_std(self) -> float:

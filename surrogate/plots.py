@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import cycle
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ from surrogate.figures import (
     save_figure,
 )
 from surrogate.force_models import force_model
+from surrogate.further_wire import forces_of
 from surrogate.identification import Identification
 from surrogate.linear_fit import is_linear
 from surrogate.options import text
@@ -102,6 +104,7 @@ def plot_identification(
     handles = [
         _draw_measurements(ax, identification, force_label),
         *_draw_fit(ax, identification, radius),
+        *_draw_other_minima(ax, identification, radius),
         *_draw_references(ax, identification, pure_shear_toughness),
     ]
     _label(ax, 1.08 * identification.wire_radius.max(), handles)
@@ -213,15 +216,27 @@ def _draw_fit(ax: Axes, fit: Identification, radius: NDArray[np.float64]) -> Ite
         yield ax.fill_between(1e3 * radius, low, high, color=RED, alpha=0.18, lw=0, label=label)
 
 
+def _draw_other_minima(ax: Axes, fit: Identification, radius: NDArray[np.float64]) -> Iterator[Any]:
+    """Draw the materials that are admitted besides the estimate."""
+    modes = fit.profile.modes[1:] if fit.profile is not None else ()
+    for mode, style in zip(
+        (m for m in modes if m.admitted), cycle(("--", "-.", ":")), strict=False
+    ):
+        at = np.array([mode.toughness]), np.array([mode.wear_strength])
+        line = forces_of(force_model(fit.model), fit.cuts, *at, radius)[0]
+        label = rf"or $\Gamma_o$ = {mode.toughness:.2g} J/m$^2$"
+        yield from ax.plot(1e3 * radius, line, color=RED, lw=0.8, ls=style, label=label)
+
+
 def _draw_references(
     ax: Axes, fit: Identification, pure_shear_toughness: float | None
 ) -> Iterator[Any]:
     if pure_shear_toughness is not None:
         label = rf"$\Gamma$ = {pure_shear_toughness:.3g} J/m$^2$"
         yield ax.axhline(pure_shear_toughness, color="black", lw=0.8, ls="--", label=label)
-    if np.isfinite(fit.transition_radius):
-        label = rf"$R_w^*$ = {1e6 * fit.transition_radius:.3g} µm"
-        yield ax.axvline(1e3 * fit.transition_radius, color=GREY, lw=0.8, ls=":", label=label)
+    if np.isfinite(star := fit.model_transition_radius):
+        label = rf"$R_w^*$ = {1e6 * star:.3g} µm"
+        yield ax.axvline(1e3 * star, color=GREY, lw=0.8, ls=":", label=label)
 
 
 def _label(ax: Axes, largest_radius: float, handles: list[Any]) -> None:

@@ -89,3 +89,16 @@ def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
     monkeypatch.setattr("surrogate.figures.find_spec", lambda name: None)
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         save_identification(identify(RADIUS, RISING, 685.0), tmp_path / "fit.png")
+
+
+def test_the_other_materials_that_fit_are_drawn_too():
+    radius = np.array([0.125e-3, 0.21e-3, 0.275e-3, 0.39e-3, 0.47e-3])
+    fit = surrogate.identify(radius, 1.6 + 31e3 * radius, 685.0)
+    ax = Figure(layout="constrained").add_subplot()
+    plot_identification(fit, ax)
+    others = [mode for mode in fit.profile.modes[1:] if mode.admitted]
+    assert others
+    shown = [label for label in labels(ax) if label.startswith("or ")]
+    assert len(shown) == len(others)
+    assert all(f"{m.toughness:.2g}" in label for m, label in zip(others, shown, strict=True))
+    assert any(f"{1e6 * fit.model_transition_radius:.3g} µm" in label for label in labels(ax))
