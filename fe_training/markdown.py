@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .errors import InputError
 
-__all__ = ["markdown_table", "update_page"]
+__all__ = ["markdown_table", "plain", "update_page"]
 
 
 def markdown_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -23,6 +23,17 @@ def markdown_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [head, ["---"] * len(head), *rows]
     escaped = ([" ".join(cell.split()).replace("|", r"\|") for cell in line] for line in lines)
     return "\n".join(f"| {' | '.join(line)} |" for line in escaped)
+
+
+def plain(value: float) -> str:
+    """Return a number with two digits and without an exponent where it is not very large or small.
+
+    Examples
+    --------
+    >>> plain(163.2), plain(0.0025), plain(100.0)
+    ('160', '0.0025', '100')
+    """
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def update_page(page: Path, parts: Mapping[str, str]) -> None:

@@ -1,47 +1,45 @@
-"""The paper's figures, remade from the data sets: its laws beside the finite elements.
+"""The paper's Figs. 2c, 3a and 4 and Table 1, remade from a campaign's data set.
 
-Each function draws one figure and returns the axes and the curves on it, as columns for a table.
+Each function draws one figure, the paper's law beside the finite elements, and returns the curves
+on it as columns for a table.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.equations import TABLE_1, far_field_energy_release_rate
-from surrogate.figures import MEDIUM, SMALL, legend_above
+from surrogate.figures import MEDIUM
 
-from .comparison import fit_power
+from .comparison import local_exponent
+from .curve import TOUCHED, Curve, stacked
 from .dataset import Campaign
 from .errors import InputError
-from .fit_points import points_of
+from .paper_style import DISTANCE, STYLES, TOUGHNESS, Columns, legend, named, panels
 from .plots import plot_stress_ahead
 from .record import Outcome, Record
 from .reference import far_field_wedge
+from .table_1 import fits, over_lower_end
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = [
-    "Curve",
+    "RATIOS",
     "dissipation_figure",
     "energy_release_figure",
-    "exponents",
+    "exponent_figure",
     "stress_figure",
     "stress_records",
 ]
 
 Floats = NDArray[np.float64]
-Columns = dict[tuple[str, str], Any]
-
-ALPHAS = (2.0, 5.0, 9.0)
-"""Stiffening exponents of the paper."""
 
 RATIOS = (0.1, 1.0, 10.0)
 """tau_w/(mu xi) that Fig. 4 is drawn for here."""
@@ -49,114 +47,73 @@ RATIOS = (0.1, 1.0, 10.0)
 FURTHEST = 16.0
 """delta/R_w up to which Fig. 2c goes."""
 
-FIT_RANGES = ((1.0, 100.0), (5.0, 100.0), (10.0, 100.0))
-"""Ranges of g for which Eq. (9) is fitted."""
-
 NEAR_ENOUGH = 0.3
 """|ln| of a distance over the wanted one up to which a row may stand for it."""
 
-TOUCHED = 2e-3
-"""delta/R_w - 1 below which the wire is taken to touch the tip."""
 
-_COLOURS = {2.0: "#0072B2", 5.0: "#D55E00", 9.0: "#009E73"}
-_MARKERS = {2.0: "o", 5.0: "s", 9.0: "^"}
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A, B and delta of one alpha over g, rising.
-
-    Parameters
-    ----------
-    alpha : float
-        Strain-stiffening exponent [-].
-    g, arc, normal_load, distance : ndarray, shape (points,)
-        J/(mu R_w), A, B and delta/R_w [-].
-    sure : ndarray of bool, shape (points,)
-        Whether the evidence of each is within its bounds.
-    """
-
-    alpha: float
-    g: Floats
-    arc: Floats
-    normal_load: Floats
-    distance: Floats
-    sure: NDArray[np.bool_]
-
-    @classmethod
-    def of(cls, data: Campaign, alpha: float, unsure: bool = False) -> Curve:
-        """Return the curve of a data set.
-
-        Parameters
-        ----------
-        data : Campaign
-            The data.
-        alpha : float
-            One of its exponents [-].
-        unsure : bool
-            Whether to take points as well that only one mesh level has reached.
-
-        Raises
-        ------
-        InputError
-            If there are fewer than three points.
-        """
-        points = points_of(data, single_mesh=unsure)
-        points = points.taken(points.alpha == alpha)
-        if len(points) < 3:
-            raise InputError(
-                f"the data have {len(points)} points of alpha = {alpha:g} that may be used; "
-                "a figure needs three or more: let the campaign go on."
-            )
-        used = data.points["use"].astype(bool) & (data.points["alpha"] == alpha)
-        sure = np.isin(points.g, data.points["g"][used])
-        return cls(alpha, points.g, points.arc, points.normal_load, points.distance, sure)
-
-    @property
-    def far(self) -> NDArray[np.bool_]:
-        """Where the wire does not touch the tip."""
-        return self.distance > 1.0 + TOUCHED
-
-
-def energy_release_figure(curves: Sequence[Curve], ax: Axes) -> Columns:
-    """Draw J/(mu R_w) over delta/R_w with a logarithmic axis of J, as in Fig. 2c.
+def energy_release_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
+    """Draw J/(mu R_w) over delta/R_w as in Fig. 2c, and its local exponent.
 
     Parameters
     ----------
     curves : sequence of Curve
         One for each alpha.
-    ax : matplotlib.axes.Axes
+    figure : matplotlib.figure.Figure
         Where to draw.
 
     Returns
     -------
     dict
-        The curves as columns: alpha, delta/R_w, J/(mu R_w), Eq. (5) and the linear wedge [-].
+        The curves as columns: alpha, delta/R_w, J/(mu R_w), Eq. (5), the linear wedge, and
+        d ln J/d ln delta, nan where the wire touches the tip [-].
 
     References
     ----------
     arXiv:2412.02021, Eq. (5) and Fig. 2c.
     """
-    distance = np.linspace(1.0, FURTHEST, 200)
+    left, right = panels(figure, 2)
+    furthest = max(float(one.distance.max()) for one in curves)
+    distance = np.geomspace(1.0, furthest, 300)
     wedge = np.asarray(far_field_wedge(distance).energy_release_rate)
-    ax.plot(distance, far_field_energy_release_rate(distance), "k--", lw=0.9, label="Eq. (5)")
-    ax.plot(distance, wedge, "k:", lw=1.1, label="linear wedge")
-    for one in curves:
-        near = one.distance <= FURTHEST
-        _points(ax, one, one.distance, one.g, near)
-    ax.set_yscale("log")
-    ax.set_xlim(0.4, FURTHEST)
+    paper = far_field_energy_release_rate(distance)
+    slopes = [_distance_exponent(one) for one in curves]
+    handles = [
+        *left.plot(distance, paper, "k-", lw=0.7, label="Eq. (5)"),
+        *left.plot(distance, wedge, "k:", lw=1.1, label="linear wedge"),
+    ]
+    right.axhline(-2.0, color="k", lw=0.7)
+    right.plot(distance[1:-1], local_exponent(distance, wedge)[1:-1], "k:", lw=1.1)
+    for one, slope in zip(curves, slopes, strict=True):
+        style = {"ms": 3.0, **STYLES[one.alpha]}
+        label = rf"$\alpha$ = {one.alpha:g}"
+        handles += left.plot(one.distance, one.g, **{**style, "ls": "none"}, label=label)
+        right.plot(one.distance, slope, **style, lw=0.8)
     lowest = min(float(one.g[one.distance <= FURTHEST].min()) for one in curves)
-    ax.set_ylim(0.5 * min(lowest, 1.0 / FURTHEST**2), 2.0 * max(one.g.max() for one in curves))
-    _finish(ax, r"distance to the tip $\delta/R_w$ [-]", r"$J/(\mu R_w)$ [-]", 3)
-    alpha, at, rate = _stacked(curves, "distance", "g")
+    left.set_xlim(0.4, FURTHEST)
+    left.set_ylim(0.5 * min(lowest, 1.0 / FURTHEST**2), 2.0 * max(one.g.max() for one in curves))
+    left.set_yscale("log")
+    right.set_xscale("log")
+    right.set_ylim(-6.0, 0.0)
+    right.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
+    named(left, DISTANCE, r"$J/(\mu R_w)$ [-]")
+    named(right, DISTANCE, r"$d\,\ln J/d\,\ln\delta$ [-]")
+    legend(figure, handles, len(handles))
+    alpha, at, rate = stacked(curves, "distance", "g")
     return {
         ("alpha", ""): alpha,
         ("delta_over_R_w", ""): at,
         ("J_over_mu_R_w", ""): rate,
         ("Eq_5", ""): far_field_energy_release_rate(np.maximum(at, 1.0)),
         ("linear_wedge", ""): far_field_wedge(np.maximum(at, 1.0)).energy_release_rate,
+        ("local_exponent", ""): np.concatenate(slopes),
     }
+
+
+def _distance_exponent(one: Curve) -> Floats:
+    slope = np.full(one.g.size, np.nan)
+    if one.far.sum() > 1:
+        slope[one.far] = local_exponent(one.distance[one.far], one.g[one.far])
+    return slope
 
 
 def stress_records(
@@ -269,29 +226,31 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     ----------
     arXiv:2412.02021, Eqs. (9), (11), (13), (S2), Table 1 and Fig. 4.
     """
-    axes = np.atleast_1d(figure.subplots(1, len(curves), sharex=True, sharey=True))
+    axes = panels(figure, len(curves))
     shades = ("#56B4E9", "#0072B2", "#001f3f")
     parts: list[Columns] = []
     for ax, one in zip(axes, curves, strict=True):
         g = np.geomspace(one.g.min(), one.g.max(), 100)
         for ratio, colour, marker in zip(RATIOS, shades, ("o", "s", "^"), strict=True):
             force = 2.0 * (ratio * one.arc + one.normal_load)
-            style = {"ms": 3.0, "mew": 0.7, "ls": "none", "mec": colour}
-            ax.plot(one.g[~one.sure], force[~one.sure], marker, mfc="white", **style)
-            ax.plot(one.g[one.sure], force[one.sure], marker, mfc=colour, **style)
+            ax.plot(one.g, force, marker, ms=3.0, color=colour)
             ax.plot(g, g + 4.0 + 4.0 * ratio, color=colour, lw=0.9)
             parts.append(_dissipation_columns(one, ratio, force))
         if one.alpha in TABLE_1:
             high = g[g >= 1.0]
             ax.plot(high, high ** TABLE_1[one.alpha], "k--", lw=0.9)
         ax.set_title(rf"$\alpha$ = {one.alpha:g}", fontsize=MEDIUM)
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.tick_params(which="both", labelsize=SMALL)
-        ax.set_xlabel(r"$\Gamma_o/(\mu R_w)$ [-]", fontsize=MEDIUM)
-        ax.spines[["top", "right"]].set_visible(False)
-    axes[0].set_ylabel(r"$F_d/(\xi\mu R_w T)$ [-]", fontsize=MEDIUM)
-    _dissipation_legend(figure, axes[0], shades)
+        ax.set(xscale="log", yscale="log", ylim=(0.8, 300.0))
+        named(ax, TOUGHNESS, r"$F_d/(\xi\mu R_w T)$ [-]")
+        ax.label_outer()
+    handles = []
+    for ratio, colour, marker in zip(RATIOS, shades, ("o", "s", "^"), strict=True):
+        label = rf"finite elements, $\tau_w/(\mu\xi)$ = {ratio:g}"
+        handles += axes[0].plot([], [], marker, ms=3.0, color=colour, label=label)
+    label = "Eq. (13), same colours"
+    handles += axes[0].plot([], [], "-", color=shades[1], lw=0.9, label=label)
+    handles += axes[0].plot([], [], "k--", lw=0.9, label="Eq. (9), Table 1")
+    legend(figure, handles, 3)
     return {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
 
 
@@ -307,87 +266,44 @@ def _dissipation_columns(one: Curve, ratio: float, force: Floats) -> Columns:
     }
 
 
-def _dissipation_legend(figure: Figure, ax: Axes, shades: Sequence[str]) -> None:
-    handles = []
-    for ratio, colour, marker in zip(RATIOS, shades, ("o", "s", "^"), strict=True):
-        label = rf"finite elements, $\tau_w/(\mu\xi)$ = {ratio:g}"
-        handles += ax.plot([], [], marker, ms=3.0, color=colour, label=label)
-    handles += ax.plot([], [], "-", color=shades[1], lw=0.9, label="Eq. (13), same colours")
-    handles += ax.plot([], [], "k--", lw=0.9, label="Eq. (9), Table 1")
-    figure.legend(handles=handles, loc="outside upper left", ncols=3, fontsize=SMALL, frameon=False)
-
-
-def exponents(curves: Sequence[Curve]) -> Columns:
-    """Return Table 1 beside power laws fitted to 2 B, friction alone, over ranges of g.
+def exponent_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
+    """Draw the exponent of the friction: the local one, and fitted ones over their lower end.
 
     Parameters
     ----------
     curves : sequence of Curve
         One for each alpha.
+    figure : matplotlib.figure.Figure
+        Where to draw.
 
     Returns
     -------
     dict
-        Columns: alpha, ends of the range of g, n of Table 1, n and C of C g^n and its r^2, and n
-        and r^2 where C = 1, as Eq. (9) is written [-].
+        The fits of `fe_training.table_1.fits` as columns [-].
 
     References
     ----------
     arXiv:2412.02021, Eq. (9) and Table 1.
     """
-    names = (
-        "alpha",
-        "g_from",
-        "g_to",
-        "n_paper",
-        "n",
-        "C",
-        "r2",
-        "n_where_C_is_1",
-        "r2_where_C_is_1",
-    )
-    lines = []
+    left, right = panels(figure, 2)
+    handles = []
     for one in curves:
-        for low, high in FIT_RANGES:
-            chosen = (one.g >= low) & (one.g <= high)
-            if chosen.sum() < 3:
-                continue
-            force = 2.0 * one.normal_load[chosen]
-            free, bound = (fit_power(one.g[chosen], force, unit) for unit in (False, True))
-            lines.append(
-                (
-                    one.alpha,
-                    one.g[chosen].min(),
-                    one.g[chosen].max(),
-                    TABLE_1.get(one.alpha, np.nan),
-                    free.exponent,
-                    free.prefactor,
-                    free.r_squared,
-                    bound.exponent,
-                    bound.r_squared,
-                )
-            )
-    columns = np.array(lines).reshape(-1, len(names)).T
-    return {(name, ""): values for name, values in zip(names, columns, strict=True)}
-
-
-def _points(ax: Axes, one: Curve, x: Floats, y: Floats, chosen: NDArray[np.bool_]) -> None:
-    colour, marker = _COLOURS.get(one.alpha, "#555555"), _MARKERS.get(one.alpha, "D")
-    style: dict[str, Any] = {"ls": "none", "ms": 3.5, "mec": colour, "mew": 0.7, "zorder": 4}
-    ax.plot(x[chosen & ~one.sure], y[chosen & ~one.sure], marker, mfc="white", **style)
-    ax.plot(x[chosen & one.sure], y[chosen & one.sure], marker, mfc=colour, **style)
-    label = rf"$\alpha$ = {one.alpha:g}"
-    ax.plot([], [], marker, ms=3.5, color=colour, label=label)
-
-
-def _finish(ax: Axes, x: str, y: str, columns: int) -> None:
-    ax.set_xlabel(x, fontsize=MEDIUM)
-    ax.set_ylabel(y, fontsize=MEDIUM)
-    ax.tick_params(which="both", labelsize=SMALL)
-    ax.spines[["top", "right"]].set_visible(False)
-    legend_above(ax, columns)
-
-
-def _stacked(curves: Sequence[Curve], *names: str) -> list[Floats]:
-    alpha = np.concatenate([np.full(one.g.size, one.alpha) for one in curves])
-    return [alpha, *(np.concatenate([getattr(one, name) for one in curves]) for name in names)]
+        style = {"lw": 1.1, **STYLES[one.alpha], "marker": ""}
+        label = rf"$\alpha$ = {one.alpha:g}"
+        high = one.g >= 0.5
+        slope = local_exponent(one.g, one.normal_load)
+        handles += left.plot(one.g[high], slope[high], **style, label=label)
+        right.plot(*over_lower_end(one, False), **style)
+        right.plot(*over_lower_end(one, True), **{**style, "lw": 0.7, "marker": "o", "ms": 2.0})
+        for ax in (left, right) if one.alpha in TABLE_1 else ():
+            n = [TABLE_1[one.alpha]] * 2
+            ax.plot([110.0, 190.0], n, color=style["color"], ls=style["ls"], lw=1.8)
+    handles += right.plot([], [], "k-", lw=1.1, label="C free")
+    handles += right.plot([], [], "k-", lw=0.7, marker="o", ms=2.0, label="C = 1")
+    handles += right.plot([], [], "k-", lw=1.8, label="Table 1, at the right")
+    for ax in (left, right):
+        ax.set(xscale="log", ylim=(0.0, 1.3))
+    named(left, TOUGHNESS, r"$d\,\ln B/d\,\ln g$ [-]")
+    named(right, "lowest $g$ of the fit, up to the largest [-]", r"$n$ of $2B = C\,g^{\,n}$ [-]")
+    legend(figure, handles, len(handles))
+    return {(name, ""): values for name, values in fits(curves).items()}

@@ -241,7 +241,7 @@ def add_result(file: Path, result: Result) -> None:
     """Append one result to the file of results, so that it survives whatever comes next."""
     new = not file.exists() or not file.stat().st_size
     with file.open("a", newline="", encoding="utf-8") as out:
-        writer = csv.writer(out)
+        writer = csv.writer(out, lineterminator="\n")
         if new:
             writer.writerow(COLUMNS)
         writer.writerow([*astuple(result.case), *astuple(result)[1:]])

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import runpy
 import shutil
 import subprocess
@@ -12,21 +13,27 @@ import numpy as np
 import pytest
 from fake_engine import run
 
+from fe_training.comparison_figures import contact_figure, eq13_figure
+from fe_training.curve import Curve
 from fe_training.dataset import load_campaign, write_campaign
 from fe_training.design import read_design
 from fe_training.errors import InputError
 from fe_training.paper_figures import (
     RATIOS,
-    Curve,
     dissipation_figure,
     energy_release_figure,
-    exponents,
+    exponent_figure,
     stress_figure,
     stress_records,
 )
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-NAMES = ("figure-1c", "figure-2c", "figure-3a", "figure-4", "table-1", "regime-map", "misfit")
+FITTED = ("1c", "map", "misfit")
+FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "specimens", *FITTED)
+PARTS = (
+    *("experiment", "distance", "plateau", "contact", "exponents", "local exponents", "eq13"),
+    *("evidence", "blocks", "sizes"),
+)
 
 pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure  # noqa: E402
@@ -49,37 +56,39 @@ def data(data_file):
 
 @pytest.fixture(scope="module")
 def script():
-    return runpy.run_path(str(ROOT / "scripts" / "paper-figures"))
+    return runpy.run_path(str(ROOT / "scripts" / "compare-paper"))
 
 
 def curves(data):
     return [Curve.of(data, alpha) for alpha in (2.0, 5.0, 9.0)]
 
 
-def axes():
-    return Figure(figsize=(3.4, 2.9), layout="constrained").add_subplot()
+def figure():
+    return Figure(figsize=(7.0, 3.0), layout="constrained")
 
 
 def test_a_curve_rises_and_holds_what_may_be_used(data):
     one = Curve.of(data, 5.0)
     assert np.all(np.diff(one.g) > 0.0)
-    assert one.sure.all()
     np.testing.assert_allclose(one.normal_load, 2.0 + 0.3 * one.g, rtol=2e-3)
     with pytest.raises(InputError, match="0 points of alpha = 3"):
         Curve.of(data, 3.0)
 
 
 def test_figure_2c_has_the_data_and_both_laws(data):
-    ax = axes()
-    columns = energy_release_figure(curves(data), ax)
+    drawn_on = figure()
+    columns = energy_release_figure(curves(data), drawn_on)
     at = columns["delta_over_R_w", ""]
     np.testing.assert_allclose(columns["Eq_5", ""], at**-2.0, rtol=1e-12)
-    assert ax.get_yscale() == "log"
-    assert ax.get_xscale() == "linear"
-    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    left = drawn_on.axes[0]
+    assert (left.get_xscale(), left.get_yscale()) == ("linear", "log")
+    labels = [text.get_text() for text in drawn_on.legends[0].get_texts()]
     assert labels == ["Eq. (5)", "linear wedge", *(rf"$\alpha$ = {a}" for a in (2, 5, 9))]
-    drawn = sum(len(line.get_xdata()) for line in ax.get_lines() if line.get_linestyle() == "None")
+    drawn = sum(len(line.get_xdata()) for line in left.get_lines() if line.get_marker() != "None")
     assert drawn == at.size
+    slope = columns["local_exponent", ""]
+    assert np.all(slope[np.isfinite(slope)] < 0.0)
+    assert np.isnan(slope[at < 1.002]).all()
 
 
 def test_figure_3a_takes_the_rows_nearest_to_the_distances(data):
@@ -88,7 +97,7 @@ def test_figure_3a_takes_the_rows_nearest_to_the_distances(data):
     assert g[0] > g[1]
     distances = data.rows["distance"][data.rows["alpha"] == 2.0]
     assert abs(records[1].distance - 1.5) == pytest.approx(np.abs(distances - 1.5).min(), abs=1e-2)
-    columns = stress_figure(records, axes())
+    columns = stress_figure(records, figure().add_subplot())
     assert columns["sigma_22_over_mu", ""].size == columns["r_over_R_w", ""].size == 60
     with pytest.raises(InputError, match="no row of alpha = 2 near delta = 15"):
         stress_records(data, 2.0)
@@ -97,8 +106,8 @@ def test_figure_3a_takes_the_rows_nearest_to_the_distances(data):
 
 
 def test_figure_4_is_eq_s2_beside_eq_13_and_eq_9(data):
-    figure = Figure(figsize=(7, 3), layout="constrained")
-    columns = dissipation_figure(curves(data), figure)
+    drawn_on = figure()
+    columns = dissipation_figure(curves(data), drawn_on)
     ratio, g = columns["tau_w_over_mu_xi", ""], columns["g", ""]
     assert set(ratio) == set(RATIOS)
     np.testing.assert_allclose(columns["Eq_13", ""], g + 4.0 * (1.0 + ratio), rtol=1e-14)
@@ -108,27 +117,40 @@ def test_figure_4_is_eq_s2_beside_eq_13_and_eq_9(data):
         columns["finite_elements", ""][chosen], 20.0 * one.arc + 2.0 * one.normal_load, rtol=1e-14
     )
     np.testing.assert_allclose(columns["Eq_9", ""][chosen], one.g**0.96, rtol=1e-14)
-    assert [ax.get_title() for ax in figure.axes] == [rf"$\alpha$ = {a}" for a in (2, 5, 9)]
+    assert [ax.get_title() for ax in drawn_on.axes] == [rf"$\alpha$ = {a}" for a in (2, 5, 9)]
 
 
 def test_table_1_is_a_fit_over_named_ranges(data):
-    table = exponents(curves(data))
-    assert set(table["n_paper", ""]) == {1.18, 1.06, 0.96}
+    table = exponent_figure(curves(data), figure())
+    assert set(table["n_table_1", ""]) == {1.18, 1.06, 0.96}
     assert np.all(table["g_from", ""] < table["g_to", ""])
     # 2B = 4 + 0.6 g of the made-up engine: between a constant and a line
     assert np.all((table["n", ""] > 0.0) & (table["n", ""] < 1.0))
 
 
+def test_a_and_b_and_the_error_of_eq_13_are_those_of_the_data(data):
+    one = Curve.of(data, 5.0)
+    columns = contact_figure([one], figure())
+    np.testing.assert_array_equal(columns["A", ""], one.arc)
+    columns = eq13_figure([one], figure())
+    xi, ratio, g = (columns[name, ""] for name in ("xi", "tau_w_over_mu_xi", "g"))
+    i = int(np.flatnonzero((xi == 0.5) & (ratio > 1.0))[0])
+    at = np.flatnonzero(one.g == g[i])[0]
+    truth = g[i] + 2.0 * xi[i] * (ratio[i] * one.arc[at] + one.normal_load[at])
+    paper = (1.0 + xi[i]) * g[i] + 4.0 * xi[i] * (1.0 + ratio[i])
+    assert columns["error_of_Eq_13", ""][i] == pytest.approx(paper / truth - 1.0)
+
+
 def test_without_the_campaign_it_says_so_in_one_line(tmp_path):
-    command = [sys.executable, "scripts/paper-figures", "--data", "missing.h5", "--out", tmp_path]
+    command = [sys.executable, "scripts/compare-paper", "--data", "missing.h5", "--out", tmp_path]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stdout == ""
-    assert done.stderr.startswith("paper-figures: ")
+    assert done.stderr.startswith("compare-paper: ")
     assert done.stderr.count("\n") == 1
 
 
-def test_all_figures_with_fitted_models(data_file, script, tmp_path, monkeypatch, capsys):
+def test_everything_with_fitted_models(data_file, script, tmp_path, monkeypatch, capsys):
     import surrogate.fitted
     from fe_training.fit import fit, write_fitted
 
@@ -136,21 +158,44 @@ def test_all_figures_with_fitted_models(data_file, script, tmp_path, monkeypatch
     (tmp_path / "models").mkdir()
     fitted = write_fitted(tmp_path / "models", fit(points(), {"origin": "made up"}))
     monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: fitted.parent)
-    out = tmp_path / "paper"
-    assert script["run"](["--data", str(data_file), "--out", str(out)]) == 1
+    out, page, pictures = tmp_path / "paper", tmp_path / "page.md", tmp_path / "pictures"
+    page.write_text("\n".join(f"<!-- {n}: begin -->\nold\n<!-- {n}: end -->" for n in PARTS))
+    options = ["--data", data_file, "--out", out, "--page", page, "--figures", pictures]
+    assert script["run"]([str(option) for option in options]) == 1
     printed = capsys.readouterr().out
-    assert "figure-3a: not made: the data have no row" in printed  # made-up distances end at 2 R_w
-    made = {path.name for path in out.iterdir()}
-    for name in set(NAMES) - {"figure-3a"}:
-        assert f"{name}: written" in printed
-        assert f"{name}.csv" in made
-        assert name == "table-1" or {f"{name}.pdf", f"{name}.png"} <= made
-    with (out / "figure-1c.csv").open() as stream:
-        rows = list(csv.DictReader(line for line in stream if line[0] != "#"))
-    last = rows[-1]
+    assert "3a: not made: the data have no row" in printed  # made-up distances end at 2 R_w
+    made = {path.name for folder in (out, pictures) for path in folder.iterdir()}
+    assert made == {
+        f"paper-{name}.{ending}"
+        for name in set(FIGURES) - {"3a"}
+        for ending in ("csv", "pdf", "png")
+    }
+    assert "old" not in page.read_text()
+    # 2B = 4 + 0.6 g of the made-up engine at g = 1 ... 10
+    assert re.search(r"\| 2 \| 1 to 100 \| 1\.18 \| 0\.\d+ \|", page.read_text())
+    with (out / "paper-1c.csv").open() as stream:
+        last = list(csv.DictReader(stream))[-1]
     expected = 1.6 + 31e3 * float(last["wire_radius_m"])
     assert float(last["eq13_N_per_m"]) == pytest.approx(expected)
     # the made-up A is less than 2: the same forces need more wear
-    assert float(last["table_N_per_m"]) == pytest.approx(expected, rel=0.02)
+    (name,) = (name for name in last if name.startswith("table_at_"))
+    assert float(last[name]) == pytest.approx(expected, rel=0.02)
     if keep := os.environ.get("KEEP_PICTURES"):
-        shutil.copytree(out, keep, dirs_exist_ok=True)
+        shutil.copytree(pictures, keep, dirs_exist_ok=True)
+
+
+def test_what_is_missing_is_named_and_the_rest_is_made(
+    data_file, script, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setitem(script["draw"].__globals__, "save_figure", lambda figure, file: None)
+    page = tmp_path / "page.md"
+    page.write_text("\n".join(f"<!-- {n}: begin -->\nold\n<!-- {n}: end -->" for n in PARTS))
+    options = ["--data", data_file, "--out", tmp_path, "--page", page, "--figures", tmp_path]
+    options += ["--specimens", tmp_path / "none.csv", "--model", "nonsense"]
+    assert script["run"]([str(option) for option in options]) == 1
+    printed = capsys.readouterr().out
+    for name in (*FITTED, "specimens"):
+        assert f"{name}: not made: " in printed
+    for name in ("2c", "4", "table-1", "contact", "eq13"):
+        assert f"{name}: written" in printed
+    assert page.read_text().count("old") == 4  # experiment, evidence, blocks, sizes
