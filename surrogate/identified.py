@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from surrogate.radii import transition_radius, wear_transition_radius
 from surrogate.scene import Scene
 from surrogate.statistics import normal_quantile, student_quantile
 from surrogate.undecided import undecided
-from surrogate.validation import LARGEST
+from surrogate.validation import LARGEST, Quantity
 
 __all__ = ["Identification"]
 
@@ -288,11 +288,26 @@ class Identification:
 
     def _forces(self, toughness: Array, wear_strength: Array, radius: Array) -> Array:
         model = force_model(self.model)
-        with np.errstate(all="ignore"):
-            g = toughness[:, np.newaxis] / (self.shear_modulus * radius.reshape(-1))
         if model.g.lower > 0.0 or model.g.upper < LARGEST:
-            model.g.checked(g)
+            self._radii_of(model.g, toughness).checked(radius)
         return forces_of(model, self.cuts, toughness, wear_strength, radius.reshape(-1))
+
+    def _radii_of(self, g: Quantity, toughness: Array) -> Quantity:
+        """Return the radii for which g of all toughnesses is within a range, but for rounding."""
+        rounding = 1e-12
+        with np.errstate(all="ignore"):
+            thinnest, thickest = (
+                float(gamma / (self.shear_modulus * limit))
+                for gamma, limit in ((toughness.max(), g.upper), (toughness.min(), g.lower))
+            )
+        return replace(
+            PREDICTED_RADIUS,
+            lower=max(PREDICTED_RADIUS.lower, (1.0 - rounding) * thinnest),
+            upper=min(PREDICTED_RADIUS.upper, (1.0 + rounding) * thickest),
+            error=DomainError,
+            remedy=f"model {self.model!r} reaches no further, from g = {g.lower:.4g} to "
+            f"{g.upper:.4g}: give radii between, or identify with model='eq13'",
+        )
 
     def force_slopes(self, wire_radius: ArrayLike) -> Array:
         """Return the derivatives of the force by toughness [-] and wear strength [m], last axis 2.

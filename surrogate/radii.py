@@ -18,7 +18,7 @@ from surrogate.elementwise import (
     quotient,
     where_normal,
 )
-from surrogate.force_models import AUTO
+from surrogate.force_models import AUTO, ForceModel
 from surrogate.one_model import one_model
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import TOUGHNESS, WORK_OF_FRACTURE, FloatOrArray, defined
@@ -91,10 +91,11 @@ def transition_radius(scene: Scene, model: str = AUTO, rtol: float = 0.02) -> Fl
         scene.friction_coefficient,
         scene.wear_strength,
     )
-    if model == "eq13":
+    chosen = one_model(model, rtol)
+    if chosen.name == "eq13":
         radius = apply(_transition, quantities)
     else:
-        radius = _under(model, rtol, (*quantities, scene.stiffening_exponent))
+        radius = _under(chosen, (*quantities, scene.stiffening_exponent))
     return defined("transition_radius", radius, "give a toughness, a friction or a wear strength")
 
 
@@ -179,10 +180,9 @@ def fracto_cohesive_transition_radius(
     return defined("fracto_cohesive_transition_radius", radius, remedy)
 
 
-def _under(model: str, rtol: float, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
+def _under(chosen: ForceModel, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
     from surrogate.model_transition import transition_under  # which a force does not need
 
-    chosen = one_model(model, rtol)
     chosen.stiffening.checked(quantities[4])
     return transition_under(chosen, quantities)
 

@@ -21,6 +21,10 @@ from .sound import ALIASES, ARRAYS, BASE, CHOICES, FORCES, OWN, RADII, SCENE, ST
 __all__ = ["SCENE", "Case", "cases", "model_names"]
 
 DRAWN = ("plot_identification", "plot_regime_map")
+AUTOMATIC = (
+    *("cutting_force", "dissipative_force", "force_gradient", "propagate"),
+    *("identify", "transition_radius", "classify"),
+)
 
 
 @dataclass(frozen=True)
@@ -118,7 +122,7 @@ def _cases_of(name, function):
     arguments = _sound(name, parameters)
     models = model_names() if "model" in parameters else (None,)
     for model in models:
-        if model == "auto" and name not in ("cutting_force", "dissipative_force"):
+        if model == "auto" and name not in AUTOMATIC:
             continue
         case = _case(name, function, parameters, arguments, model)
         if case is not None:
@@ -138,8 +142,9 @@ def _cases_of(name, function):
 def _case(name, function, parameters, arguments, model):
     fixed = {} if model is None else {"model": model}
     label = name if model is None else f"{name}: {model}"
-    aliases = (*ALIASES.get(name, ()), *(("g", "alpha") if model in FITTED_NAMES else ()))
-    searches = name == "transition_radius" and model in FITTED_NAMES
+    fitted = model in (*FITTED_NAMES, "auto")
+    aliases = (*ALIASES.get(name, ()), *(("g", "alpha") if fitted else ()))
+    searches = name == "transition_radius" and fitted
     slow = searches or name in ("identify", "regime_map", *DRAWN)
     if name == "identify" and model in ("high-toughness", "eq9"):
         return None  # without wear there is nothing to identify
