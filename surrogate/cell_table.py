@@ -47,6 +47,9 @@ class CellTable:
 
     grid: Grid
     nodes: Mapping[str, tuple[Array, Array]]
+    _cells: dict[str, Array] = field(default_factory=dict, repr=False)
+    _columns: dict[str, list[Array]] = field(default_factory=dict, repr=False)
+    _rows: dict[str, dict[int, tuple[float, ...]]] = field(default_factory=dict, repr=False)
     _collapsed: dict[tuple[str, int, float], list[Array]] = field(default_factory=dict, repr=False)
 
     def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
@@ -65,7 +68,7 @@ class CellTable:
         """Return x, a function and its derivatives by ln g and by ln alpha."""
         place = self.grid.place(log_g, log_alpha)
         index = place.along_g * self.grid.stiffening + place.along_alpha
-        rows = self.cells[name].reshape(-1, 4, 4)[index]
+        rows = self.cells(name).reshape(-1, 4, 4)[index]
         c = np.moveaxis(rows, (-2, -1), (0, 1))
         t, s = place.in_g, place.in_alpha
         power = [c[k][0] + s * (c[k][1] + s * (c[k][2] + s * c[k][3])) for k in range(4)]
@@ -76,25 +79,24 @@ class CellTable:
         in_g, moved, in_alpha = self.grid.slopes(place, log_alpha)
         return place.x, value, by_cell * in_g, by_row * in_alpha + by_cell * moved
 
-    @cached_property
-    def cells(self) -> dict[str, Array]:
-        """The sixteen coefficients of every cell, one row each, of every function."""
-        return {
-            name: np.ascontiguousarray(
-                np.concatenate([_coefficients(side) for side in sides]).reshape(-1, 16)
-            )
-            for name, sides in self.nodes.items()
-        }
+    def cells(self, name: str) -> Array:
+        """Return the sixteen coefficients of every cell of a function, one row each."""
+        if name not in self._cells:
+            sides = [_coefficients(side) for side in self.nodes[name]]
+            self._cells[name] = np.concatenate(sides)
+        return self._cells[name]
 
-    @cached_property
-    def _columns(self) -> dict[str, list[Array]]:
-        """For each function sixteen arrays of coefficients over the cells."""
-        return {name: list(np.ascontiguousarray(c.T)) for name, c in self.cells.items()}
+    def _transposed(self, name: str) -> list[Array]:
+        """Return sixteen arrays of coefficients over the cells."""
+        if name not in self._columns:
+            self._columns[name] = list(np.ascontiguousarray(self.cells(name).T))
+        return self._columns[name]
 
-    @cached_property
-    def _lists(self) -> dict[str, list[tuple[float, ...]]]:
-        """The cells as lists, from which numbers are taken more quickly."""
-        return {name: list(map(tuple, c.tolist())) for name, c in self.cells.items()}
+    def _row(self, name: str, cell: int) -> tuple[float, ...]:
+        """Return the coefficients of one cell as numbers, which are kept."""
+        return self._rows.setdefault(name, {}).setdefault(
+            cell, tuple(self.cells(name)[cell].tolist())
+        )
 
     @cached_property
     def _numbers(self) -> tuple[Any, ...]:
@@ -125,9 +127,12 @@ class CellTable:
         t -= row
         s -= column
         cell = row * columns + column
-        found = []
+        found, rows_of = [], self._rows
         for name in names:
-            a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = self._lists[name][cell]
+            kept = rows_of[name].get(cell) if name in rows_of else None
+            a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = kept or self._row(
+                name, cell
+            )
             a += s * (a1 + s * (a2 + s * a3))
             b += s * (b1 + s * (b2 + s * b3))
             c += s * (c1 + s * (c2 + s * c3))
@@ -145,7 +150,7 @@ class CellTable:
         counts = grid.short, grid.past, grid.stiffening
         steps = grid.log_g, grid.past / grid.beyond, low, grid.stiffening / (high - low)
         x, *place = places(log_g, log_alpha, np.array(grid.touch), counts, steps)
-        return x, [bicubic(self.cells[name], *place) for name in names]
+        return x, [bicubic(self.cells(name), *place) for name in names]
 
     def _scattered(self, names: Sequence[str], place: Place) -> list[Array]:
         index = place.along_g * self.grid.stiffening
@@ -154,7 +159,7 @@ class CellTable:
         power, taken = np.empty(t.shape), np.empty(t.shape)
         found = []
         for name in names:
-            columns, result = self._columns[name], np.empty(t.shape)
+            columns, result = self._transposed(name), np.empty(t.shape)
             _horner(columns[12:], index, s, result, taken)
             for k in (8, 4, 0):
                 _horner(columns[k : k + 4], index, s, power, taken)
@@ -174,7 +179,7 @@ class CellTable:
         """Return the four columns that are left of the table at one alpha; the latest are kept."""
         found = self._collapsed.get((name, j, s))
         if found is None:
-            c = self.cells[name].reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 1, 0)
+            c = self.cells(name).reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 1, 0)
             found = list(np.ascontiguousarray(c[0] + s * (c[1] + s * (c[2] + s * c[3]))))
             if len(self._collapsed) >= _KEPT:
                 self._collapsed.clear()
@@ -191,7 +196,7 @@ def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: 
 
 
 def _coefficients(values: Array) -> Array:
-    """Return the coefficients (cells, cells, 4, 4) of powers along g and along alpha."""
+    """Return the sixteen coefficients of powers along g and along alpha, one row for each cell."""
     by_g, by_alpha = _slopes(values.shape[0]), _slopes(values.shape[1])
     along_g, along_alpha = by_g @ values, values @ by_alpha.T
     mixed = along_g @ by_alpha.T
@@ -202,7 +207,7 @@ def _coefficients(values: Array) -> Array:
                 for other in (0, 1):
                     rows, columns = ends.shape[0] + end, ends.shape[1] + other
                     ends[:, :, 2 * i + end, 2 * j + other] = nodes[end:rows, other:columns]
-    return np.asarray(np.einsum("ai,xyij,bj->xyab", _HERMITE, ends, _HERMITE))
+    return np.asarray(ends.reshape(-1, 16) @ np.kron(_HERMITE, _HERMITE).T)
 
 
 @cache

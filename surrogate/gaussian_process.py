@@ -4,8 +4,9 @@ The prior covariance of two points is `variance` times exp(-r^2/2) with r in uni
 each coordinate. Instead of all points, a chosen few carry the prediction (the deterministic
 training conditional): with K_uu the covariance of these, K_uf that with all and N the noise, the
 mean is k_u S K_uf N^-1 y with S = (K_uu + K_uf N^-1 K_fu)^-1, and the variance is
-k - k_u K_uu^-1 k_u + k_u S k_u. Everything but the points and the parameters is computed once, at
-the first use.
+k - k_u (K_uu^-1 - S) k_u. With K_uu = L L' and the eigenvalues q of L^-1 K_uf N^-1 K_fu L'^-1 the
+middle is that of q/(1 + q), a square without differences. Everything but the points and the
+parameters is computed once, at the first use.
 """
 
 from __future__ import annotations
@@ -68,61 +69,69 @@ class GaussianProcess:
         """Return mean and standard deviation at points of shape (n, coordinates)."""
         self._prepare()
         mean, std = np.empty(len(at)), np.empty(len(at))
+        room = self._room(ROWS)
         for rows, block in _blocks(at):
-            k = self._covariance(block)
-            mean[rows] = self._mean(k)[: rows.stop - rows.start]
-            spread = k @ self._parts["spread"]
-            reached = len(self.active)
-            lost = _sum(spread[:, :reached] ** 2) - _sum(spread[:, reached:] ** 2)
-            variance = np.maximum(self.variance - lost, 0.0)
+            k, other = self._covariance(block, room)
+            mean[rows] = self._mean(k, other)[: rows.stop - rows.start]
+            spread = np.matmul(k, self._parts["spread"], out=other)
+            spread *= spread
+            variance = np.maximum(self.variance - _sum(spread), 0.0)
             std[rows] = self.calibration * np.sqrt(variance)[: rows.stop - rows.start]
         return mean, std
 
     def predict_mean(self, at: Array) -> Array:
         """Return the mean at points of shape (n, coordinates)."""
         self._prepare()
-        mean = np.empty(len(at))
+        mean, room = np.empty(len(at)), self._room(ROWS)
         for rows, block in _blocks(at):
-            mean[rows] = self._mean(self._covariance(block))[: rows.stop - rows.start]
+            mean[rows] = self._mean(*self._covariance(block, room))[: rows.stop - rows.start]
         return mean
 
     def gradient(self, at: Array) -> Array:
         """Return the derivatives of the mean by the coordinates, shape (n, coordinates)."""
         self._prepare()
-        slopes = np.empty(at.shape)
+        slopes, room = np.empty(at.shape), self._room(ROWS)
         for rows, block in _blocks(at):
-            weighted = self._covariance(block) * self._parts["weights"]
+            weighted = self._covariance(block, room)[0] * self._parts["weights"]
             for i, length in enumerate(self.lengths):
                 apart = self._parts["active"][:, i] - block[:, i, np.newaxis]
                 slope = _sum(weighted * apart) / length**2
                 slopes[rows, i] = slope[: rows.stop - rows.start]
         return slopes
 
-    def _mean(self, covariance: Array) -> Array:
-        return self.mean + _sum(covariance * self._parts["weights"])
+    def _mean(self, covariance: Array, room: Array) -> Array:
+        return self.mean + _sum(np.multiply(covariance, self._parts["weights"], out=room))
 
-    def _covariance(self, at: Array) -> Array:
-        exponent = np.zeros((len(at), len(self.active)))
-        for i, length in enumerate(self.lengths):
-            apart = (at[:, i, np.newaxis] - self._parts["active"][:, i]) / length
-            exponent += apart * apart
-        return self.variance * np.exp(-0.5 * exponent)
+    def _room(self, rows: int) -> tuple[Array, Array]:
+        shape = rows, len(self.active)
+        return np.empty(shape), np.empty(shape)
+
+    def _covariance(self, at: Array, room: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the covariance with the active points, and room to work in; both are `room`."""
+        exponent, apart = room
+        exponent[...] = np.log(self.variance)
+        for i, length in enumerate(self.lengths * np.sqrt(2.0)):
+            np.subtract((at[:, i] / length)[:, np.newaxis], self._parts["scaled"][i], out=apart)
+            apart *= apart
+            exponent -= apart
+        return np.exp(exponent, out=exponent), apart
 
     def _prepare(self) -> None:
         if self._parts:
             return
-        parts: dict[str, Any] = {"active": np.ascontiguousarray(self.inputs[self.active])}
-        self._parts["active"] = parts["active"]
-        k_uf = self._covariance(self.inputs).T
+        active = np.ascontiguousarray(self.inputs[self.active])
+        scaled = (active / (self.lengths * np.sqrt(2.0))).T.copy()
+        self._parts.update(active=active, scaled=scaled)
+        k_uf = self._covariance(self.inputs, self._room(len(self.inputs)))[0].T
         k_uu = k_uf[:, self.active] + JITTER * self.variance * np.eye(len(self.active))
         whitening = np.linalg.inv(np.linalg.cholesky(k_uu))
         white = whitening @ k_uf
-        precision = np.eye(len(self.active)) + (white / self.noise) @ white.T
-        factor = np.linalg.inv(np.linalg.cholesky(precision))
+        known, axes = np.linalg.eigh((white / self.noise) @ white.T)
+        known = np.maximum(known, 0.0)
         target = white @ ((self.values - self.mean) / self.noise)
-        parts["weights"] = whitening.T @ (factor.T @ (factor @ target))
-        parts["spread"] = np.hstack([whitening.T, (factor @ whitening).T])
-        self._parts.update(parts)
+        weights = whitening.T @ (axes @ ((axes.T @ target) / (1.0 + known)))
+        spread = whitening.T @ (axes * np.sqrt(known / (1.0 + known)))
+        self._parts.update(weights=weights, spread=spread)
 
 
 def _sum(rows: Array) -> Array:
