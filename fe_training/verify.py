@@ -495,11 +495,12 @@ class _Curve:
         self.records = dict(sorted(records.items()))
 
     def slope(self, y: Callable[[Record], float], x: Callable[[Record], float], g: float) -> float:
-        """Return dy/dx at a wanted g; nan on a path of a single record."""
+        """Return dy/dx at a wanted g; nan on a path of a single record, or where x stands still."""
         if len(self.records) < 2:
             return math.nan
         ys, xs = ([of(one) for one in self.records.values()] for of in (y, x))
-        return float(np.gradient(ys, xs)[list(self.records).index(g)])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return float(np.gradient(ys, xs)[list(self.records).index(g)])
 
     def at(self, y: Callable[[Record], float], g: float) -> float:
         """Return y at exactly the wanted g: what the search left open is taken out."""
