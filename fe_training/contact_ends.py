@@ -36,8 +36,8 @@ def contact_ends(theta: Floats, pressure: Floats) -> tuple[float, float]:
     --------
     >>> theta = np.linspace(0.81, 2.19, 60)
     >>> ends = contact_ends(theta, np.sqrt((theta - 0.8) * (2.2 - theta)))
-    >>> print("{:.3f} {:.3f}".format(*ends))
-    0.800 2.200
+    >>> print("{:.2f} {:.2f}".format(*ends))
+    0.80 2.20
     """
     if len(theta) < 2:
         return np.nan, np.nan

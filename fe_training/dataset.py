@@ -38,6 +38,7 @@ __all__ = [
     "Table",
     "dissipative_force_table",
     "load_campaign",
+    "require_checksum",
     "write_campaign",
 ]
 
@@ -403,7 +404,7 @@ def load_campaign(path: str | os.PathLike[str] | None = None) -> Campaign:
     import h5py
 
     file = Path(file_name(path)) if path is not None else model_file("campaign.h5")
-    _verify(file)
+    require_checksum(file)
     try:
         with h5py.File(file, "r") as content:
             _require_schema(file, content.attrs.get("schema"))
@@ -428,7 +429,14 @@ def _require_schema(file: Path, schema: object) -> None:
         )
 
 
-def _verify(file: Path) -> None:
+def require_checksum(file: Path) -> None:
+    """Refuse a file that does not match the checksum beside it.
+
+    Raises
+    ------
+    InputError
+        If it does not, or if one of the two cannot be read.
+    """
     beside = _checksum_file(file)
     try:
         checksum = hashlib.sha256(file.read_bytes()).hexdigest().encode()

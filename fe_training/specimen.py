@@ -257,8 +257,11 @@ def read_results(file: Path) -> list[Result]:
     InputError
         If the file is not one of results, or a line is damaged.
     """
-    with file.open(newline="", encoding="utf-8") as lines:
-        head, *rows = csv.reader(lines)
+    try:
+        with file.open(newline="", encoding="utf-8") as lines:
+            head, *rows = csv.reader(lines)
+    except (ValueError, csv.Error) as error:  # no text, or nothing at all
+        raise InputError(f"{file} is no file of specimens: {error}") from None
     if tuple(head) != COLUMNS:
         raise InputError(f"{file} is no file of specimens: its head is {','.join(head)[:80]!r}")
     return [_read(file, number, row) for number, row in enumerate(rows, 2)]

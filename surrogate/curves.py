@@ -6,17 +6,19 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from surrogate.errors import InputError, WirecutError
 from surrogate.export import write_csv
+from surrogate.force_models import force_model
 from surrogate.identification import Identification
+from surrogate.linear_fit import is_linear
 from surrogate.validation import shown
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["curve_dataset", "write_curve", "write_profile"]
+__all__ = ["curve_dataset", "curve_radii", "write_curve", "write_profile"]
 
 _POINTS = 201
 
@@ -35,7 +37,7 @@ def write_curve(
     file : str or path-like
         Where to write; the header names quantity and unit.
     wire_radius : array_like, optional
-        R_w [m]; 201 radii up to the thickest wire by default.
+        R_w [m]; radii up to the thickest wire, as far as the model reaches, by default.
 
     Raises
     ------
@@ -90,7 +92,7 @@ def curve_dataset(
     identification : Identification
         What `identify` returned.
     wire_radius : array_like, optional
-        R_w [m]; 201 radii up to the thickest wire by default.
+        R_w [m]; radii up to the thickest wire, as far as the model reaches, by default.
 
     Raises
     ------
@@ -114,10 +116,23 @@ def curve_dataset(
     )
 
 
+def curve_radii(fit: Identification, largest: float) -> NDArray[np.float64]:
+    """Return the radii of the curve [m]: from 0 to the largest, or as far as the model reaches."""
+    if fit.profile is None or is_linear(fit.model):
+        return np.linspace(0.0, largest, _POINTS)
+    toughness = np.append(fit.profile.admitted[0], fit.toughness)
+    g = force_model(fit.model).g
+    first = max(largest / _POINTS, toughness.max() / (fit.shear_modulus * g.upper))
+    if g.lower > 0.0:
+        largest = min(largest, toughness.min() / (fit.shear_modulus * g.lower))
+    return np.linspace(first * (1.0 + 1e-12), largest * (1.0 - 1e-12), _POINTS)
+
+
 def _curve(fit: Identification, wire_radius: ArrayLike | None) -> dict[tuple[str, str], Any]:
     _require(fit)
     if wire_radius is None:
-        wire_radius = np.linspace(0.0, 1.0, _POINTS)[1:] * fit.wire_radius.max()
+        wire_radius = curve_radii(fit, fit.wire_radius.max())
+        wire_radius = wire_radius[wire_radius > 0.0]
     radius = np.atleast_1d(np.asarray(wire_radius))
     low, high = fit.band(radius)
     return {

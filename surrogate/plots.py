@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate.curves import curve_radii
 from surrogate.errors import InputError
 from surrogate.figures import (
     BLUE,
@@ -29,7 +30,6 @@ from surrogate.figures import (
 from surrogate.force_models import force_model
 from surrogate.further_wire import forces_of
 from surrogate.identification import Identification
-from surrogate.linear_fit import is_linear
 from surrogate.options import text
 from surrogate.profile_plot import plot_profile
 from surrogate.validation import TOUGHNESS, one_number, shown
@@ -100,7 +100,7 @@ def plot_identification(
         pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
     text("force_label", force_label, "give what the legend calls the forces")
     ax = new_axes(SINGLE_COLUMN) if ax is None else require_axes(ax)
-    radius = _drawn_radii(identification)
+    radius = curve_radii(identification, 1.08 * identification.wire_radius.max())
     handles = [
         _draw_measurements(ax, identification, force_label),
         *_draw_fit(ax, identification, radius),
@@ -170,19 +170,6 @@ def _require_identification(value: object) -> None:
             f"identification must be what identify returned, but is {shown(value)} "
             f"({type(value).__name__}); give identify(wire_radius, force, shear_modulus)."
         )
-
-
-def _drawn_radii(fit: Identification) -> NDArray[np.float64]:
-    """Return the radii of the curve [m]: from the axis on, or as far as the model reaches."""
-    largest = 1.08 * fit.wire_radius.max()
-    if fit.profile is None or is_linear(fit.model):
-        return np.linspace(0.0, largest, 201)
-    toughness = np.append(fit.profile.admitted[0], fit.toughness)
-    g = force_model(fit.model).g
-    first = max(largest / 200.0, toughness.max() / (fit.shear_modulus * g.upper))
-    if g.lower > 0.0:
-        largest = min(largest, toughness.min() / (fit.shear_modulus * g.lower))
-    return np.linspace(first * (1.0 + 1e-12), largest * (1.0 - 1e-12), 201)
 
 
 def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:

@@ -75,8 +75,19 @@ def test_without_xarray_the_remedy_is_told(monkeypatch):
 
 
 def test_the_command_writes_the_line(tmp_path, capsys):
-    assert main(["identify", "--example", "--csv", str(tmp_path / "fit.csv")]) == 0
+    assert (
+        main([*["identify", "--example", "--model", "eq13", "--csv"], str(tmp_path / "fit.csv")])
+        == 0
+    )
     columns = table(tmp_path / "fit.csv")
     expected = 1.6 + 31e3 * columns["wire_radius_m"]
     np.testing.assert_allclose(columns["force_per_thickness_N_per_m"], expected, rtol=1e-9)
+    capsys.readouterr()
+
+
+def test_the_line_of_a_fitted_model_ends_where_the_model_does(tmp_path, capsys):
+    assert main([*["identify", "--example", "--csv"], str(tmp_path / "fit.csv")]) == 0
+    radius = table(tmp_path / "fit.csv")["wire_radius_m"]
+    assert 0.0 < radius[0] < 0.125e-3
+    assert radius[-1] == pytest.approx(0.47e-3)
     capsys.readouterr()

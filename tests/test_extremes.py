@@ -77,7 +77,7 @@ FUNCTIONS = {
         {"toughness": 2.6, "work_of_fracture": 7e3},
     ),
     "transition_radius": (
-        of_scene(surrogate.transition_radius),
+        of_scene(partial(surrogate.transition_radius, model="eq13")),
         some("shear_modulus", "toughness", "friction_coefficient", "wear_strength"),
     ),
     "wear_transition_radius": (

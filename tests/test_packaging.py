@@ -20,7 +20,7 @@ from surrogate.paths import model_file
 cuts = read_measurements(model_file("paam-wire-cutting.csv"))
 print(surrogate.__file__)
 print(model_file("paam-wire-cutting.csv"))
-print(identify(cuts.wire_radius, cuts.force, 685.0).toughness)
+print(identify(cuts.wire_radius, cuts.force, 685.0, model="eq13").toughness)
 """
 
 

@@ -75,10 +75,10 @@ def test_facts_reach_the_fit(cuts, capsys, elements):
 
 
 def test_a_linear_fit_prints_nothing_of_it(cuts, capsys):
-    printed = run(cuts, "", capsys)
+    printed = run(cuts, "--model eq13", capsys)
     for word in ("Minimum", "Undecided", "To know more", "\nmodel"):
         assert word not in printed
-    assert "modes" not in json.loads(run(cuts, "--json", capsys))
+    assert "modes" not in json.loads(run(cuts, "--model eq13 --json", capsys))
 
 
 def test_two_panels_without_overlaps(cuts, capsys, bump, tmp_path):

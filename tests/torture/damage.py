@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from fe_training.dataset import load_campaign
+from fe_training.dataset import load_campaign, require_checksum
 from fe_training.design import read_design
+from fe_training.specimen import read_results
 from fe_training.store import DamagedRowError, Row, decode_row, encode_row
 from surrogate import read_material, read_measurements
 from surrogate.errors import WirecutError
@@ -104,9 +105,16 @@ def _reader(path):
     }
     if path.name.endswith("material.json"):
         return read_material, summed
+    if path.name == "specimens.csv":
+        return _specimens, summed
     if path.suffix == ".csv" and "wire-cutting" not in path.name:
         return None  # tables of results, which people read
     return (readers[path.suffix], summed) if path.suffix in readers else None
+
+
+def _specimens(file):
+    require_checksum(file)
+    return read_results(file)
 
 
 def damage(number=2000, seed=0, extra=()):
