@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
+from surrogate.costs import BULK, ONE, read_costs
 from surrogate.errors import InputError
 from surrogate.fitted import shipped
 from surrogate.force_models import FITTED_NAMES, FORCE_MODELS, ForceModel
 from surrogate.paths import models_folder
 from surrogate.records import Record
 
-__all__ = ["COSTS_FILE", "ModelInfo", "models"]
-
-COSTS_FILE = "model-costs.json"
-"""The measured costs, written by scripts/bench-tradeoff."""
-
-_COSTS_SCHEMA = "wirecut-model-costs-1"
+__all__ = ["ModelInfo", "models"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,8 +93,8 @@ def models() -> tuple[ModelInfo, ...]:
             model.equation if model else "fitted to finite elements",
             model.domain if model else "made by regen-surrogate",
             model is not None,
-            costs.get(name, {}).get("bulk_ns"),
-            costs.get(name, {}).get("scalar_us"),
+            costs.get(name, {}).get(BULK),
+            costs.get(name, {}).get(ONE),
             bounds.of_force(name) if bounds and name in bounds.errors else None,
         )
         for name, model in _by_name({**FORCE_MODELS, **known}).items()
@@ -109,29 +103,3 @@ def models() -> tuple[ModelInfo, ...]:
 
 def _by_name(known: Mapping[str, ForceModel]) -> dict[str, ForceModel | None]:
     return {name: known.get(name) for name in (*FORCE_MODELS, *FITTED_NAMES)}
-
-
-def read_costs() -> dict[str, dict[str, float]]:
-    """Return the measured costs by model; none where they are not shipped.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged.
-    """
-    file = models_folder() / COSTS_FILE
-    if not file.is_file():
-        return {}
-    try:
-        content: Any = json.loads(file.read_text(encoding="utf-8"))
-        if content["schema"] != _COSTS_SCHEMA:
-            raise ValueError(f"the schema is {content['schema']!r}")
-        return {
-            name: {key: float(value) for key, value in each.items()}
-            for name, each in content["models"].items()
-        }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(
-            f"{file} must hold the measured costs of the models, but {error}; "
-            "install wirecut again, or make it anew with scripts/bench-tradeoff."
-        ) from None

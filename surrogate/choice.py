@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.bounds import Bounds
+from surrogate.costs import by_cost
 from surrogate.errors import AccuracyError
 from surrogate.fitted import Fitted, shipped
 from surrogate.force_models import FORCE_MODELS, ForceModel
@@ -63,7 +64,9 @@ class Chosen:
 
 
 def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
-    """Return the models with measured errors in rising order of cost, and the bounds.
+    """Return the models with measured errors, cheapest at many points first, and the bounds.
+
+    The order is the same for one point, so that numbers and arrays agree.
 
     Raises
     ------
@@ -71,7 +74,7 @@ def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
         If no fitted models are shipped.
     """
     fitted = fitted or shipped()
-    return [FORCE_MODELS[FREE], *fitted.models.values()], fitted.bounds
+    return [FORCE_MODELS[FREE], *by_cost(fitted.models.values())], fitted.bounds
 
 
 def choose_terms(

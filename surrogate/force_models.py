@@ -276,7 +276,7 @@ AUTO = "auto"
 """The model that stands for the cheapest one that is exact enough."""
 
 FITTED_NAMES = ("power-law", "table", "gp")
-"""The models fitted to finite-element solutions, in rising order of cost."""
+"""The models fitted to finite-element solutions."""
 
 
 def is_auto(name: object) -> bool:

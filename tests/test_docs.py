@@ -12,6 +12,7 @@ import pytest
 
 import surrogate
 from surrogate.cli import main
+from surrogate.force_models import AUTO, FITTED_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = {path.name: path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("docs/*.md"))}
@@ -148,7 +149,7 @@ def helper(words):
 
 def test_the_pages_on_models_and_coordinates_name_what_there_is():
     table = re.findall(r"^\| `([\w-]+)` \|", PAGES["models.md"], flags=re.MULTILINE)
-    assert set(table) <= set(surrogate.FORCE_MODELS)
+    assert set(table) == {*surrogate.FORCE_MODELS, *FITTED_NAMES, AUTO}
     from surrogate.map_axes import coordinate
 
     rows = re.findall(r"^\| (`.*?) \| in m|^\| (`.*?) \|", PAGES["maps.md"], flags=re.MULTILINE)

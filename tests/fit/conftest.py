@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+import surrogate.costs
 import surrogate.fitted
 from fe_training import fit_gp
 from fe_training.fit import fit, write_fitted
@@ -31,6 +32,7 @@ def fitted_file(tmp_path_factory):
 
 @pytest.fixture
 def installed(fitted_file, monkeypatch):
-    """The fitted models as this installation's own."""
+    """The fitted models as this installation's own, which never measured what they cost."""
+    monkeypatch.setattr(surrogate.costs, "models_folder", lambda: fitted_file.parent)
     monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: fitted_file.parent)
     return surrogate.fitted.shipped()
