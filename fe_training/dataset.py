@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surrogate.fitted_file import checksum_line
 from surrogate.paths import file_name, model_file
 
 from .columns import INNER, POINT_COLUMNS, PROFILES, ROW_COLUMNS
@@ -221,9 +222,8 @@ def write_campaign(
                     _write_column(group, column, values, *about[column])
         buffer.seek(0)
         content = buffer.read()
-    checksum = f"{hashlib.sha256(content).hexdigest()}  {path.name}\n"
     write_atomically(path, content)
-    write_atomically(_checksum_file(path), checksum.encode())
+    write_atomically(_checksum_file(path), checksum_line(path.name, content))
     return path
 
 

@@ -18,7 +18,13 @@ from surrogate.validation import shown
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["curve_dataset", "curve_radii", "write_curve", "write_profile"]
+__all__ = [
+    "curve_dataset",
+    "curve_radii",
+    "require_identification",
+    "write_curve",
+    "write_profile",
+]
 
 _POINTS = 201
 
@@ -70,7 +76,7 @@ def write_profile(identification: Identification, file: str | PathLike[str]) -> 
     InputError
         If `identification` is not one, has no profile, or the file cannot be written.
     """
-    _require(identification)
+    require_identification(identification)
     profile = identification.profile
     if profile is None:
         raise InputError(
@@ -129,7 +135,7 @@ def curve_radii(fit: Identification, largest: float) -> NDArray[np.float64]:
 
 
 def _curve(fit: Identification, wire_radius: ArrayLike | None) -> dict[tuple[str, str], Any]:
-    _require(fit)
+    require_identification(fit)
     if wire_radius is None:
         wire_radius = curve_radii(fit, fit.wire_radius.max())
         wire_radius = wire_radius[wire_radius > 0.0]
@@ -143,7 +149,8 @@ def _curve(fit: Identification, wire_radius: ArrayLike | None) -> dict[tuple[str
     }
 
 
-def _require(value: object) -> None:
+def require_identification(value: object) -> None:
+    """Refuse what is no identification."""
     if not isinstance(value, Identification):
         raise InputError(
             f"identification must be what identify returned, but is {shown(value)} "

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.curves import curve_radii
-from surrogate.errors import InputError
+from surrogate.curves import curve_radii, require_identification
 from surrogate.figures import (
     BLUE,
     GREY,
@@ -32,7 +31,7 @@ from surrogate.further_wire import forces_of
 from surrogate.identification import Identification
 from surrogate.options import text
 from surrogate.profile_plot import plot_profile
-from surrogate.validation import TOUGHNESS, one_number, shown
+from surrogate.validation import TOUGHNESS, one_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -95,7 +94,7 @@ def plot_identification(
     >>> ax.get_xlabel()
     'wire radius $R_w$ [mm]'
     """
-    _require_identification(identification)
+    require_identification(identification)
     if pure_shear_toughness is not None:
         pure_shear_toughness = one_number(PURE_SHEAR_TOUGHNESS, pure_shear_toughness)
     text("force_label", force_label, "give what the legend calls the forces")
@@ -150,7 +149,7 @@ def save_identification(
     surrogate.errors.InputError: fit.doc has no picture's ending; choose .png, .pdf or .svg.
     """
     file = picture_file(file)
-    _require_identification(identification)
+    require_identification(identification)
     panels = 1 if identification.profile is None else 2
     figure = new_figure((SINGLE_COLUMN[0], panels * SINGLE_COLUMN[1]))
     if panels == 2:
@@ -162,14 +161,6 @@ def save_identification(
         force_label=force_label,
     )
     save_figure(figure, file)
-
-
-def _require_identification(value: object) -> None:
-    if not isinstance(value, Identification):
-        raise InputError(
-            f"identification must be what identify returned, but is {shown(value)} "
-            f"({type(value).__name__}); give identify(wire_radius, force, shear_modulus)."
-        )
 
 
 def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
