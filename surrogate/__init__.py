@@ -13,33 +13,26 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from surrogate.equations import (
-    far_field_energy_release_rate,
-    friction_free_relative_force,
-    general_force,
-    high_toughness_force,
-    low_toughness_dissipation,
-    low_toughness_force,
-    power_law_dissipation,
-    power_law_exponent,
-    relative_force,
-)
 from surrogate.errors import AccuracyError, DomainError, InputError, UnknownModelError, WirecutError
-from surrogate.force import CuttingForce, cutting_force, dissipative_force
-from surrogate.force_models import FORCE_MODELS
-from surrogate.radii import (
-    fracto_cohesive_transition_radius,
-    transition_radius,
-    wear_transition_radius,
-)
-from surrogate.regimes import Regime, classify
-from surrogate.scene import Scene
 
 if TYPE_CHECKING:
     from surrogate.catalogue import ModelInfo, models
     from surrogate.contact import ContactFunctions, contact_functions, energy_release_rate
     from surrogate.data import Material, Measurements, read_material, read_measurements
     from surrogate.design import Design, design_radii
+    from surrogate.equations import (
+        far_field_energy_release_rate,
+        friction_free_relative_force,
+        general_force,
+        high_toughness_force,
+        low_toughness_dissipation,
+        low_toughness_force,
+        power_law_dissipation,
+        power_law_exponent,
+        relative_force,
+    )
+    from surrogate.force import CuttingForce, cutting_force, dissipative_force
+    from surrogate.force_models import FORCE_MODELS
     from surrogate.gradient import ForceGradient, force_gradient
     from surrogate.identification import Identification, identify
     from surrogate.map_plots import plot_regime_map
@@ -47,6 +40,13 @@ if TYPE_CHECKING:
     from surrogate.maps import RegimeMap, regime_map
     from surrogate.plots import plot_identification
     from surrogate.propagation import UncertainForce, propagate
+    from surrogate.radii import (
+        fracto_cohesive_transition_radius,
+        transition_radius,
+        wear_transition_radius,
+    )
+    from surrogate.regimes import Regime, classify
+    from surrogate.scene import Scene
 
 __version__ = "0.1.0"
 
@@ -99,37 +99,35 @@ __all__ = [
     "wear_transition_radius",
 ]
 
-# What a force does not need is loaded at first use, which keeps `import surrogate` quick.
-_LAZY = {
-    "ContactFunctions": "contact",
-    "Design": "design",
-    "ForceGradient": "gradient",
-    "Identification": "identification",
-    "MapPoints": "map_points",
-    "Material": "data",
-    "Measurements": "data",
-    "ModelInfo": "catalogue",
-    "RegimeMap": "maps",
-    "UncertainForce": "propagation",
-    "contact_functions": "contact",
-    "design_radii": "design",
-    "energy_release_rate": "contact",
-    "force_gradient": "gradient",
-    "identify": "identification",
-    "models": "catalogue",
-    "plot_identification": "plots",
-    "plot_regime_map": "map_plots",
-    "propagate": "propagation",
-    "read_material": "data",
-    "read_measurements": "data",
-    "regime_map": "maps",
+# Loaded at first use, so that nobody waits for what is not needed.
+_MODULES = {
+    "catalogue": "ModelInfo models",
+    "contact": "ContactFunctions contact_functions energy_release_rate",
+    "data": "Material Measurements read_material read_measurements",
+    "design": "Design design_radii",
+    "equations": "far_field_energy_release_rate friction_free_relative_force general_force "
+    "high_toughness_force low_toughness_dissipation low_toughness_force power_law_dissipation "
+    "power_law_exponent relative_force",
+    "force": "CuttingForce cutting_force dissipative_force",
+    "force_models": "FORCE_MODELS",
+    "gradient": "ForceGradient force_gradient",
+    "identification": "Identification identify",
+    "map_plots": "plot_regime_map",
+    "map_points": "MapPoints",
+    "maps": "RegimeMap regime_map",
+    "plots": "plot_identification",
+    "propagation": "UncertainForce propagate",
+    "radii": "fracto_cohesive_transition_radius transition_radius wear_transition_radius",
+    "regimes": "Regime classify",
+    "scene": "Scene",
 }
+_HOME = {name: module for module, names in _MODULES.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _LAZY:
+    if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
     globals()[name] = value
     return value
 

@@ -120,6 +120,8 @@ def choose_terms(
         share = {n: _share(estimates[n] * np.exp(free[n]), low) for n in TERMS}
         found = [together]
         for model in models[1:]:
+            if _met(found, tolerance):
+                break
             errors = [
                 np.where(needed[n], _bound(bounds, model.name, n, g, alpha, estimates[n]), 0.0)
                 for n in TERMS
@@ -137,10 +139,12 @@ def choose_contact(g: Array, alpha: Array, rtol: object) -> Chosen:
     """Return models for A, B and delta at points, each of them within rtol."""
     tolerance = one_number(RTOL, rtol)
     models, bounds = available()
-    found = [
-        np.expm1(np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0))
-        for model in models
-    ]
+    found: list[Array] = []
+    for model in models:
+        if found and _met(found, tolerance):
+            break
+        largest = np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0)
+        found.append(np.expm1(largest))
     everywhere = dict.fromkeys(QUANTITIES, np.ones(len(g), bool))
     return _chosen(models, np.array(found), everywhere, tolerance, g, alpha)
 
@@ -155,6 +159,11 @@ def bounded(model: ForceModel, g: Array, alpha: Array) -> Array:
 def _bound(bounds: Bounds, model: str, name: str, g: Array, alpha: Array, term: Array) -> Array:
     """Return the bound of a function, 0 where its term is."""
     return np.asarray(np.where(term == 0.0, 0.0, bounds.at(model, name, g, alpha)))
+
+
+def _met(found: Sequence[Array], tolerance: float) -> bool:
+    """Return whether some model is exact enough at every point, so that no other is asked."""
+    return bool(np.all(np.min(found, axis=0) <= tolerance))
 
 
 def _share(term: Array, total: Array) -> Array:

@@ -45,7 +45,7 @@ def read_costs() -> dict[str, dict[str, float]]:
     >>> costs["eq13"]["bulk_ns"] < costs["gp"]["bulk_ns"]
     True
     """
-    return _read(str(models_folder() / COSTS_FILE))
+    return _read(models_folder())
 
 
 def by_cost(models: Iterable[Model]) -> list[Model]:
@@ -55,8 +55,8 @@ def by_cost(models: Iterable[Model]) -> list[Model]:
 
 
 @cache
-def _read(path: str) -> dict[str, dict[str, float]]:
-    file = Path(path)
+def _read(folder: Path) -> dict[str, dict[str, float]]:
+    file = folder / COSTS_FILE
     if not file.is_file():
         return {}
     try:

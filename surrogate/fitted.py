@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -190,7 +191,12 @@ def shipped() -> Fitted:
     InputError
         If it ships none, or their file is damaged.
     """
-    file = models_folder() / FILE
+    return _in(models_folder())
+
+
+@cache
+def _in(folder: Path) -> Fitted:
+    file = folder / FILE
     if not file.is_file():
         raise InputError(
             f"a fitted model must have the file {FILE}, but the fitted models are not shipped with "

@@ -31,7 +31,7 @@ from surrogate.wedge import wedge_functions, wedge_load, wedge_slope, wedge_slop
 
 __all__ = ["FittedModel", "in_blocks"]
 
-BLOCK = 2**12  # points at a time, whose temporaries stay in the cache
+BLOCK = 2**14  # points at a time, whose temporaries stay in the cache
 _ARC, _LOAD, _DISTANCE = QUANTITIES
 
 

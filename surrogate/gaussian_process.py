@@ -11,7 +11,8 @@ parameters is computed once, at the first use.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -63,66 +64,66 @@ class GaussianProcess:
     variance: float
     lengths: Array
     calibration: float = 1.0
-    _parts: dict[str, Any] = field(default_factory=dict, repr=False)
 
     def predict(self, at: Array) -> tuple[Array, Array]:
         """Return mean and standard deviation at points of shape (n, coordinates)."""
-        self._prepare()
         mean, std = np.empty(len(at)), np.empty(len(at))
-        room = self._room(ROWS)
+        room, other, (weights, spread) = self._room(ROWS), self._room(ROWS), self._solved
         for rows, block in _blocks(at):
-            k, other = self._covariance(block, room)
-            mean[rows] = self._mean(k, other)[: rows.stop - rows.start]
-            spread = np.matmul(k, self._parts["spread"], out=other)
-            spread *= spread
-            variance = np.maximum(self.variance - _sum(spread), 0.0)
-            std[rows] = self.calibration * np.sqrt(variance)[: rows.stop - rows.start]
+            some = slice(0, rows.stop - rows.start)
+            covariance = self._covariance(block, room)
+            mean[rows] = self.mean + _sum(np.multiply(covariance, weights, out=other))[some]
+            np.matmul(covariance, spread, out=other)
+            other *= other
+            variance = np.maximum(self.variance - _sum(other), 0.0)[some]
+            std[rows] = self.calibration * np.sqrt(variance)
         return mean, std
 
     def predict_mean(self, at: Array) -> Array:
         """Return the mean at points of shape (n, coordinates)."""
-        self._prepare()
-        mean, room = np.empty(len(at)), self._room(ROWS)
+        mean, room, (weights, _) = np.empty(len(at)), self._room(ROWS), self._solved
         for rows, block in _blocks(at):
-            mean[rows] = self._mean(*self._covariance(block, room))[: rows.stop - rows.start]
+            weighted = np.multiply(self._covariance(block, room), weights, out=room)
+            mean[rows] = self.mean + _sum(weighted)[: rows.stop - rows.start]
         return mean
 
     def gradient(self, at: Array) -> Array:
         """Return the derivatives of the mean by the coordinates, shape (n, coordinates)."""
-        self._prepare()
-        slopes, room = np.empty(at.shape), self._room(ROWS)
+        slopes, room, (weights, _) = np.empty(at.shape), self._room(ROWS), self._solved
         for rows, block in _blocks(at):
-            weighted = self._covariance(block, room)[0] * self._parts["weights"]
+            weighted = np.multiply(self._covariance(block, room), weights, out=room)
             for i, length in enumerate(self.lengths):
-                apart = self._parts["active"][:, i] - block[:, i, np.newaxis]
+                apart = self._active[0][:, i] - block[:, i, np.newaxis]
                 slope = _sum(weighted * apart) / length**2
                 slopes[rows, i] = slope[: rows.stop - rows.start]
         return slopes
 
-    def _mean(self, covariance: Array, room: Array) -> Array:
-        return self.mean + _sum(np.multiply(covariance, self._parts["weights"], out=room))
+    def _room(self, rows: int) -> Array:
+        return np.empty((rows, len(self.active)))
 
-    def _room(self, rows: int) -> tuple[Array, Array]:
-        shape = rows, len(self.active)
-        return np.empty(shape), np.empty(shape)
+    def _covariance(self, at: Array, room: Array) -> Array:
+        """Return the covariance with the active points, in `room`."""
+        # -r^2/2 of x and y is x y - (x^2 + y^2)/2: one product of matrices, where differences
+        # would need a pass over `room` for each coordinate
+        _, centre, columns = self._active
+        x = (at - centre) / self.lengths
+        x = np.concatenate([x, np.full((len(x), 1), 1.0), _half_square(x)], axis=1)
+        np.matmul(x, columns, out=room)
+        return np.exp(room, out=room)
 
-    def _covariance(self, at: Array, room: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Return the covariance with the active points, and room to work in; both are `room`."""
-        exponent, apart = room
-        exponent[...] = np.log(self.variance)
-        for i, length in enumerate(self.lengths * np.sqrt(2.0)):
-            np.subtract((at[:, i] / length)[:, np.newaxis], self._parts["scaled"][i], out=apart)
-            apart *= apart
-            exponent -= apart
-        return np.exp(exponent, out=exponent), apart
-
-    def _prepare(self) -> None:
-        if self._parts:
-            return
+    @cached_property
+    def _active(self) -> tuple[Array, Array, Array]:
+        """The points that carry the prediction, their centre, and factors of `_covariance`."""
         active = np.ascontiguousarray(self.inputs[self.active])
-        scaled = (active / (self.lengths * np.sqrt(2.0))).T.copy()
-        self._parts.update(active=active, scaled=scaled)
-        k_uf = self._covariance(self.inputs, self._room(len(self.inputs)))[0].T
+        centre = active.mean(axis=0)
+        y = (active - centre) / self.lengths
+        own = _half_square(y) + np.log(self.variance)
+        return active, centre, np.concatenate([y, own, np.full(own.shape, 1.0)], axis=1).T.copy()
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array]:
+        """The weights of the mean, and the matrix that gives the variance."""
+        k_uf = self._covariance(self.inputs, self._room(len(self.inputs))).T
         k_uu = k_uf[:, self.active] + JITTER * self.variance * np.eye(len(self.active))
         whitening = np.linalg.inv(np.linalg.cholesky(k_uu))
         white = whitening @ k_uf
@@ -131,11 +132,16 @@ class GaussianProcess:
         target = white @ ((self.values - self.mean) / self.noise)
         weights = whitening.T @ (axes @ ((axes.T @ target) / (1.0 + known)))
         spread = whitening.T @ (axes * np.sqrt(known / (1.0 + known)))
-        self._parts.update(weights=weights, spread=spread)
+        return weights, spread
 
 
 def _sum(rows: Array) -> Array:
     return np.asarray(np.add.reduce(rows, axis=1))
+
+
+def _half_square(rows: Array) -> Array:
+    """Return minus half the squared lengths of rows, as a column."""
+    return np.asarray(-0.5 * np.add.reduce(rows * rows, axis=1, keepdims=True))
 
 
 def _blocks(at: Array) -> Any:

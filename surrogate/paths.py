@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from pathlib import Path
 
 from surrogate.errors import InputError
@@ -45,6 +46,7 @@ def file_name(path: object) -> str:
         ) from None
 
 
+@cache
 def models_folder() -> Path:
     """Return the folder of shipped data and models.
 

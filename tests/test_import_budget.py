@@ -28,11 +28,11 @@ def test_nothing_but_the_standard_library_and_numpy_is_loaded():
     assert packages - set(sys.stdlib_module_names) <= {"surrogate", "numpy"}
 
 
-def test_what_a_force_does_not_need_is_not_loaded():
+def test_what_is_not_asked_for_is_not_loaded():
     modules = set(loaded(LOADED_BY_IMPORT))
     heavy = {"numpy.ma", "argparse", "json", "csv", "importlib.metadata", "asyncio", "unittest"}
-    lazy = {f"surrogate.{module}" for module in set(surrogate._LAZY.values()) | {"cli", "paths"}}
-    assert not modules & (heavy | lazy)
+    assert not modules & heavy
+    assert {name for name in modules if name.startswith("surrogate.")} == {"surrogate.errors"}
 
 
 def test_every_public_name_is_there():
