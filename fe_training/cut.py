@@ -30,6 +30,8 @@ _RAISE = Steps(0.15, 0.35)
 _ROUGH_SECTORS, _ROUGH_SPACING = 12, 0.2
 #: Largest relative change of the horizontal force in one step.
 _FORCE_STEP = 0.26
+#: Largest ratio of the horizontal forces at the ends of one stretch of a path.
+_STRETCH = 1.5
 _CORRECTIONS = 8
 #: Elements are split from this share of the scatter that is allowed, so that the next ones are
 #: not due at once.
@@ -242,14 +244,26 @@ class Cut:
         """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
         force = 0.5 * g
         for _ in range(_CORRECTIONS):
-            now = abs(state.horizontal_force)
-            steps = Steps(_FORCE_STEP * now, _FORCE_STEP * max(now, force))
-            state = self.last(state, Control.FORCE, force, steps)
+            state = self._pulled(state, force)
             ratio = self.energy_release_rate(state) / g
             if abs(ratio - 1.0) < self.settings.tolerance:
                 return state
             force /= ratio
         raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
+
+    def _pulled(self, state: State, force: float) -> State:
+        """Return the state at a horizontal force, reached in stretches.
+
+        Steps are relative to the end of a stretch, and far ahead of it they would pass the meshes
+        that the way there needs.
+        """
+        while True:
+            now = abs(state.horizontal_force)
+            end = min(force, _STRETCH * now)
+            steps = Steps(_FORCE_STEP * now, _FORCE_STEP * max(now, end))
+            state = self.last(state, Control.FORCE, end, steps)
+            if end == force:
+                return state
 
     def supports(self, state: State) -> list[tuple[float, float]]:
         """Return the supports of the domain integrals, nearest first.

@@ -22,7 +22,7 @@ __all__ = ["GaussianProcess"]
 
 Array = NDArray[np.float64]
 
-ROWS = 64  # points at a time, always: so that no result depends on how many are asked for
+ROWS = 128  # points at a time, always: so that no result depends on how many are asked for
 JITTER = 1e-11
 
 
