@@ -16,7 +16,7 @@ from .solvers import LinearSolver
 #: A state with an element turned inside out by more than this is another branch.  Single elements
 #: at the end of the contact fold a little.
 LEAST_DETERMINANT = -2.0
-_QUICK = 6
+_QUICK = 8
 _GROWTH = 1.3
 _SMALLEST_SHARE = 1 / 64
 _SECANTS = 12

@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -48,7 +49,7 @@ def _cases():
     for alpha in (1.0, 2.0, 3.0, 9.0, 15.0, 20.0):
         yield Case("stiffening", alpha, g=1.0)
         yield Case("smallest toughness", alpha, g=1e-4)
-        yield Case("largest toughness", alpha, g=300.0, minutes=60.0)
+        yield Case("largest toughness", alpha, g=300.0)
     for alpha in (2.0, 9.0):
         yield Case("far away", alpha, distance=200.0)
         for radius in (1e2, 1e3, 1e4, 1e5, 1e6):
@@ -87,8 +88,8 @@ print(json.dumps({
 """
 
 
-def finite_elements(only=None, most=None):
-    """Run the cases one after the other.
+def finite_elements(only=None, most=None, jobs=1, tell=str):
+    """Run the cases.
 
     Parameters
     ----------
@@ -96,14 +97,17 @@ def finite_elements(only=None, most=None):
         Run the cases of one study.
     most : int, optional
         Run no more than so many.
+    jobs : int
+        Cases at a time.
+    tell : callable
+        Called with a line on each case as soon as it is done.
     """
     part = Part("finite-elements", "Finite elements at their extremes")
     start, loads = time.monotonic(), []
     cases = [case for case in CASES if only in (None, case.study)][:most]
-    for case in cases:
-        begun = time.monotonic()
-        found = solved(case)
-        seconds = time.monotonic() - begun
+    with ThreadPoolExecutor(jobs) as pool:
+        solutions = list(pool.map(lambda case: _timed(case, tell), cases))
+    for case, (found, seconds) in zip(cases, solutions, strict=True):
         _judge(part, case, found, seconds)
         if case.study == "perturbed starts" and found.get("outcome") == "CONVERGED":
             loads.append(found["load"] / found["g"])
@@ -114,6 +118,14 @@ def finite_elements(only=None, most=None):
             part.fail("perturbed starts", "another solution", f"B/g apart by {apart:.3g}")
     part.seconds = time.monotonic() - start
     return part
+
+
+def _timed(case, tell):
+    begun = time.monotonic()
+    found = solved(case)
+    seconds = time.monotonic() - begun
+    tell(f"{case.study}, {case}: {found['outcome']} ({seconds:.0f} s)")
+    return found, seconds
 
 
 def solved(case):
