@@ -174,8 +174,10 @@ def _write(figure: Figure, file: Any, ending: str) -> None:
         figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
 
 
-def legend_above(ax: Axes, columns: int, handles: list[Any] | None = None) -> None:
-    """Put the legend above the axes, where no data can be."""
+def legend_above(
+    ax: Axes, columns: int, handles: list[Any] | None = None, left: float = -0.1
+) -> None:
+    """Put the legend above the axes, where no data can be, from a fraction of their width on."""
     if handles is None:
         handles = ax.get_legend_handles_labels()[0]
     if not handles:
@@ -183,7 +185,7 @@ def legend_above(ax: Axes, columns: int, handles: list[Any] | None = None) -> No
     ax.legend(
         handles=handles,
         loc="lower left",
-        bbox_to_anchor=(-0.1, 1.0),
+        bbox_to_anchor=(left, 1.0),
         ncols=columns,
         fontsize=SMALL,
         frameon=False,

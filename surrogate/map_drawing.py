@@ -95,7 +95,8 @@ def fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
 def hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
     """Hatch where the model does not hold; yield the handle for the legend."""
     outside = 1.0 - _whole(made, made.force.in_domain)
-    if outside.any():
+    cells = outside[1:, 1:] * outside[1:, :-1] * outside[:-1, 1:] * outside[:-1, :-1]
+    if cells.any():  # single nodes, which rounding puts beyond an edge, have no area
         hatched: Any = ax.contourf(
             *_mesh(made), outside, levels=[0.5, 2.0], colors="none", hatches=["////"], zorder=0.5
         )
@@ -111,11 +112,14 @@ def draw_boundaries(
     ax: Axes, made: RegimeMap, limits: set[str], contact: bool
 ) -> Iterator[tuple[Any, list[Array]]]:
     """Draw the lines; yield one handle for the legend and the lines of each boundary."""
-    equal = 0
+    equal, thin = 0, None
     for one in made.boundaries:
         style: dict[str, Any]
         if one.kind == "dominance":
-            _lines(ax, made, one, color=GREY, lw=0.4)
+            handle = _lines(ax, made, one, color="black", lw=0.5)
+            if thin is None:  # one entry of the legend stands for all of them
+                thin = handle
+                yield thin, []
             continue
         if one.kind == "equal-terms":
             style = {"color": "black", "lw": 1.2, "ls": LINES[equal % len(LINES)]}
@@ -135,14 +139,16 @@ def _lines(ax: Axes, made: RegimeMap, one: Boundary, **style: Any) -> Any:
     for line in one.lines:
         if one.kind == "contact":
             line = _with_indentation_left(made, line)
-        label = _legend_text(one) if handle is None else None
+        label = _legend_text(one, made) if handle is None else None
         xy = _shown(made.x, line[:, 0]), _shown(made.y, line[:, 1])
         (drawn,) = ax.plot(*xy, label=label, zorder=2, **style)
         handle = handle or drawn
     return handle
 
 
-def _legend_text(one: Boundary) -> str:
+def _legend_text(one: Boundary, made: RegimeMap) -> str:
+    if one.kind == "dominance":
+        return rf"a term$={made.regime.threshold:.3g}\,F_{{ss}}/T$"
     if one.kind == "limit":
         return one.equation.replace("is off by", "off by")
     if one.kind == "contact":

@@ -119,15 +119,15 @@ def plot_regime_map(
     else:
         fill_error(ax, made, error_of)
     outside = list(hatch_outside(ax, made))
-    handles, drawn = [], []
+    handles, drawn, marks = [], [], []
     for line_handle, lines in draw_boundaries(ax, made, wanted, contact):
         handles.append(line_handle)
         drawn += lines
     for i, (one, centre, error) in enumerate(located):
         handles.append(draw_points(ax, made, one, centre, error, POINT_MARKERS[i % 6]))
-        drawn += bars(centre, error)
+        marks += bars(centre, error)
     columns = add_legend(ax, _COLUMNS[width], handles + outside)
-    if nameless := name_regions(ax, made, drawn, error_of is not None):
+    if nameless := name_regions(ax, made, drawn, marks, error_of is not None):
         regions = [patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]
         add_legend(ax, columns, handles + outside + regions)
     return ax

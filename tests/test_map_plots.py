@@ -2,13 +2,14 @@
 
 import re
 import zlib
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from surrogate import InputError, Scene, UnknownModelError, WirecutError, regime_map
-from surrogate.label_places import GRID, best_place, blocked_by_line
+from surrogate.label_places import GRID, best_place, best_turned_place, blocked_by_line
 from surrogate.map_plots import plot_regime_map, save_regime_map
 from surrogate.map_points import MapPoints, places
 from surrogate.map_style import ERROR_COLOURS, FILLS, NAMES
@@ -45,6 +46,20 @@ def written(ax):
     return {text.get_text() for text in ax.texts}
 
 
+def inside_text(text, points):
+    """Which points of the screen [pixel] are in the box of a text, turned as it is."""
+    whole, angle = text.get_window_extent(), np.radians(text.get_rotation())
+    text.set_rotation(0.0)
+    box = text.get_window_extent()
+    text.set_rotation(np.degrees(angle))  # that of the screen, where the axes' is another
+    if text.get_transform_rotates_text():
+        text.set_transform_rotates_text(False)
+    np.testing.assert_allclose(text.get_window_extent().extents, whole.extents, atol=0.5)
+    away = points - np.mean([[whole.x0, whole.y0], [whole.x1, whole.y1]], axis=0)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return (np.abs(away @ turn) < [0.5 * box.width, 0.5 * box.height]).all(1)
+
+
 def test_regions_are_named_and_lines_carry_their_equation():
     ax = draw(lengths())
     assert written(ax) == {NAMES[name] for name in DOMINANCES}
@@ -52,6 +67,7 @@ def test_regions_are_named_and_lines_carry_their_equation():
     assert any("g=1" in text for text in legend(ax))
     assert not any("Eq." in text for text in legend(ax))
     assert not any("g=1" in text for text in legend(draw(lengths(), contact=False)))
+    assert legend(draw(lengths(threshold=0.75))).count(r"a term$=0.75\,F_{ss}/T$") == 1
 
 
 def test_a_region_too_small_for_its_name_is_in_the_legend():
@@ -59,6 +75,27 @@ def test_a_region_too_small_for_its_name_is_in_the_legend():
     ax = draw(narrow)
     assert "transition" not in written(ax)
     assert "transition" in legend(ax)
+
+
+@pytest.mark.parametrize("width", ["single", "double"])
+def test_a_narrow_region_is_named_along_its_boundary(width, tmp_path):
+    figure = Figure(figsize=(3.4, 3.5) if width == "single" else (7.0, 5.0), layout="constrained")
+    ax = plot_regime_map(gel(), figure.add_subplot(), width=width)
+    name = next(text for text in ax.texts if text.get_text() == "transition")
+    line = next(line for line in ax.get_lines() if line.get_linewidth() > 1.0)
+    first, last = ax.transData.transform(line.get_xydata()[[0, -1]])
+    angle = np.degrees(np.arctan2(*(last - first)[::-1]))
+    assert name.get_rotation() == pytest.approx(angle, abs=0.5)
+    assert 20.0 < angle < 60.0
+
+
+def test_names_keep_away_from_experiments():
+    ax = draw(gel(), [EXPERIMENT])
+    wear = next(text for text in ax.texts if text.get_text() == "wear").get_window_extent()
+    assert ax.containers
+    points = ax.transData.transform(ax.containers[0][0].get_xydata())
+    gap = np.maximum([wear.x0, wear.y0] - points, points - [wear.x1, wear.y1]).max(axis=1)
+    assert gap.min() > 0.03 * ax.get_window_extent().height
 
 
 def test_limits_are_drawn_where_asked_for():
@@ -90,6 +127,16 @@ def test_outside_its_domain_a_model_is_hatched():
     ax = draw(gel(model="low-toughness"))
     assert "outside the domain" in legend(ax)
     assert "outside the domain" not in legend(draw(gel()))
+
+
+def test_nodes_that_rounding_puts_beyond_an_edge_are_not_hatched():
+    made = gel()
+    for rows, hatched in ((1, False), (2, True)):
+        holds = np.ones((61, 61), dtype=bool)
+        holds[:rows, 10:20] = False
+        force = replace(made.force, in_domain=holds)
+        words = legend(draw(replace(made, force=force)))
+        assert ("outside the domain" in words) is hatched
 
 
 def test_the_error_of_a_formula_has_a_bar_of_colours():
@@ -132,8 +179,7 @@ def test_nothing_overlaps_and_nothing_is_cut_off(case, width):
             if joined and line.get_linewidth() > 0.5 and len(xy) > 1:
                 along = np.linspace(0.0, 1.0, 50)[:, None]
                 dense = np.concatenate([a + along * (b - a) for a, b in pairwise(xy)])
-                inside = (dense > [box.x0, box.y0]).all(1) & (dense < [box.x1, box.y1]).all(1)
-                assert not inside.any(), ax.texts[i].get_text()
+                assert not inside_text(ax.texts[i], dense).any(), ax.texts[i].get_text()
     matplotlib.pyplot.close(figure)
 
 
@@ -256,3 +302,19 @@ def test_a_box_is_placed_where_it_touches_nothing():
     assert free[box].all()
     assert free[box].size > 500
     assert best_place(np.zeros((GRID, GRID), dtype=bool), 0.1, 0.1) is None
+
+
+@pytest.mark.parametrize("angle", [-0.7, 0.4, 1.2])
+def test_a_turned_box_is_placed_where_it_touches_nothing(angle):
+    window, box = (300.0, 200.0), (90.0, 15.0)
+    rows, columns = np.meshgrid(*[(np.arange(GRID) + 0.5) / GRID] * 2, indexing="ij")
+    along = np.array([np.cos(angle), np.sin(angle)])
+    across = np.array([-along[1], along[0]])
+    cells = np.stack([columns * window[0], rows * window[1]], axis=-1)
+    free = np.abs((cells - [140.0, 110.0]) @ across) < 14.0
+    place = best_turned_place(free, box, window, angle)
+    away = cells - np.multiply(place, window)
+    covered = (np.abs(away @ along) < 0.5 * box[0]) & (np.abs(away @ across) < 0.5 * box[1])
+    assert covered.sum() > 100
+    assert free[covered].all()
+    assert best_turned_place(free, (90.0, 30.0), window, angle) is None
