@@ -106,10 +106,11 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
 def map_text(made: dict[str, Any]) -> str:
     """Return what `map_record` says, for people."""
     x, y = made["x"], made["y"]
-    fixed = ", ".join(f"{n} = {number(v)} {COORDINATES[n].unit}" for n, v in made["fixed"].items())
+    fixed = ", ".join(
+        f"{n} = {number(v)} {COORDINATES[n].unit}".rstrip() for n, v in made["fixed"].items()
+    )
     head = (
-        f"Map over {_range(x)} and {_range(y)}, model {made['model']}\n"
-        f"fixed: {fixed.strip() or 'nothing'}"
+        f"Map over {_range(x)} and {_range(y)}, model {made['model']}\nfixed: {fixed or 'nothing'}"
     )
     shares = [(name, f"{100.0 * share:.1f} %") for name, share in made["regimes"].items()]
     rows = [

@@ -84,6 +84,7 @@ def html_of_map(made: RegimeMap) -> str:
     """Return a map's regimes and boundaries, and its picture where matplotlib is installed."""
     from importlib.util import find_spec
 
+    from surrogate.map_axes import COORDINATES
     from surrogate.map_export import map_summary
 
     told = map_summary(made)
@@ -93,7 +94,7 @@ def html_of_map(made: RegimeMap) -> str:
             (axis, f"{told[axis]['name']} {_pair(told[axis])}", told[axis]["unit"])
             for axis in ("x", "y")
         ),
-        *((name, number(value), "") for name, value in told["fixed"].items()),
+        *((name, number(value), COORDINATES[name].unit) for name, value in told["fixed"].items()),
         *(
             (name, f"{100.0 * share:.1f} % of the map", "")
             for name, share in told["regimes"].items()

@@ -40,6 +40,8 @@ def test_axes_with_units_and_what_is_fixed(capsys):
     assert "Map over wire_radius 1e-05 to 0.001 m and wear_strength 1000 to 100000 Pa" in printed
     assert "(1 + xi) Gamma_o = 4 tau_w R_w" in printed
     assert printed.isascii()
+    assert run("--preset friction --fix alpha=3 --nodes 5") == 0
+    assert "\nfixed: tau_w/mu = 0.1, stiffening_exponent = 3\n" in capsys.readouterr().out
 
 
 def test_a_preset_can_be_changed(capsys):

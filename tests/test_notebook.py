@@ -74,6 +74,8 @@ def test_a_map_with_its_picture():
     rows = cells(html)
     assert ["x", "R_w/l_e 0.01 to 10", ""] in rows
     assert ["equal-terms", "(1 + xi) Gamma_o = 4 tau_w R_w", ""] in rows
+    gel = regime_map("R_w", "Gamma_o", ((1e-5, 1e-3), (1, 9)), {"mu": 685, "tau_w": 9}, nodes=5)
+    assert ["shear_modulus", "685", "Pa"] in cells(gel._repr_html_())
     assert re.search(r"<svg[\s\S]*wear[\s\S]*</svg>", html)
     assert html == made._repr_html_()
 
