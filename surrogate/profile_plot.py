@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from surrogate.errors import InputError
 from surrogate.figures import BLUE, GREY, MEDIUM, RED, SINGLE_COLUMN, SMALL, legend_above, new_axes
 from surrogate.identification import Identification
-from surrogate.profile import Profile
+from surrogate.profile import Mode, Profile
 from surrogate.validation import shown
 
 if TYPE_CHECKING:
@@ -65,9 +66,12 @@ def plot_profile(identification: Identification, ax: Axes | None = None) -> Axes
     profile, known = identification.profile, identification.force_std is not None
     low, top = _heights(profile)
     right = _right_end(profile, top)
+    left = max(right * 10.0**-DECADES, profile.searched[0])
+    modes = [one for one in profile.modes if left <= one.toughness <= right and one.misfit <= top]
     handles = _draw(ax, profile, f"{100.0 * identification.confidence:.3g} %")
+    handles += _draw_minima(ax, modes)
     ax.set_xscale("log")
-    ax.set_xlim(max(right * 10.0**-DECADES, profile.searched[0]), right)
+    ax.set_xlim(left, right)
     ax.set_ylim(low, top)
     ax.set_xlabel(r"cleavage toughness $\Gamma_o$ [J/m$^2$]", fontsize=MEDIUM)
     ax.set_ylabel(r"misfit $\chi^2$" if known else r"sum of squares [N$^2$/m$^2$]", fontsize=MEDIUM)
@@ -99,20 +103,28 @@ def _draw(ax: Axes, profile: Profile, confidence: str) -> list[Any]:
     label = None if np.isnan(profile.threshold) else f"{confidence} limit"
     if label:
         handles.append(ax.axhline(profile.threshold, color=GREY, lw=0.8, ls="--", label=label))
-    for low, high in profile.toughness_intervals:
-        ax.axvspan(low, high, color=RED, alpha=0.15, lw=0)
+    for i, (low, high) in enumerate(profile.toughness_intervals):
+        label = f"{confidence} interval"
+        span = ax.axvspan(low, high, color=RED, alpha=0.15, lw=0, label=label)
+        if i == 0:
+            handles.append(span)
+    return handles
+
+
+def _draw_minima(ax: Axes, modes: Sequence[Mode]) -> list[Any]:
+    handles = []
     for admitted, label in ((True, "minimum"), (False, "excluded minimum")):
-        modes = [mode for mode in profile.modes if mode.admitted is admitted]
-        if modes:
+        those = [mode for mode in modes if mode.admitted is admitted]
+        if those:
             handles += ax.plot(
-                [mode.toughness for mode in modes],
-                [mode.misfit for mode in modes],
+                [mode.toughness for mode in those],
+                [mode.misfit for mode in those],
                 "o",
                 ms=4,
                 mec=RED,
                 mfc=RED if admitted else "white",
                 label=label,
-                clip_on=True,
+                clip_on=False,  # one at the end of the search is on the edge
                 zorder=4,
             )
     return handles

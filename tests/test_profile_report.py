@@ -116,6 +116,21 @@ def test_figures_without_scatter_or_interval(elements):
         assert low < fit.profile.modes[0].misfit < high
 
 
+def test_a_minimum_at_the_end_of_the_search_is_drawn_whole():
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    radius = np.array([0.125e-3, 0.21e-3, 0.275e-3, 0.39e-3, 0.47e-3])
+    fit = surrogate.identify(radius, 1.6 + 31e3 * radius, MODULUS)
+    ax = plot_profile(fit, figure.add_subplot())
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    assert any(mode.toughness == left for mode in fit.profile.modes)
+    minima = [line for line in ax.get_lines() if "minimum" in line.get_label()]
+    x, y = np.concatenate([line.get_xydata() for line in minima]).T
+    assert set(x) == {mode.toughness for mode in fit.profile.modes}
+    assert not any(line.get_clip_on() for line in minima)
+    assert np.all((left <= x) & (x <= right) & (low <= y) & (y <= high))
+    assert "95 % interval" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
 def test_what_has_no_profile_is_refused():
     fit = identify(RADII, FORCES, MODULUS)
     for value in (fit, 1.6):
