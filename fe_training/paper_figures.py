@@ -79,14 +79,15 @@ def energy_release_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     slopes = [_distance_exponent(one) for one in curves]
     handles = [
         *left.plot(distance, paper, "k-", lw=0.7, label="Eq. (5)"),
-        *left.plot(distance, wedge, "k:", lw=1.1, label="linear wedge"),
+        *left.plot(distance, wedge, "k:", lw=1.1, zorder=3, label="linear wedge"),
     ]
     right.axhline(-2.0, color="k", lw=0.7)
     right.plot(distance[1:-1], local_exponent(distance, wedge)[1:-1], "k:", lw=1.1)
     for one, slope in zip(curves, slopes, strict=True):
         style = {"ms": 3.0, **STYLES[one.alpha]}
         label = rf"$\alpha$ = {one.alpha:g}"
-        handles += left.plot(one.distance, one.g, **{**style, "ls": "none"}, label=label)
+        # evenly along the curve: at the tip the rows are too many to be told apart
+        handles += left.plot(one.distance, one.g, **style, lw=0.8, markevery=0.05, label=label)
         right.plot(one.distance, slope, **style, lw=0.8)
     lowest = min(float(one.g[one.distance <= FURTHEST].min()) for one in curves)
     left.set_xlim(0.4, FURTHEST)
