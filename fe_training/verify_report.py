@@ -390,16 +390,16 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
         for variant in variants if by_variant else [None]:
             colour = _colour(variants.index(variant) if variant else alphas.index(alpha))
             mine = [
-                (one.alpha if by_alpha else one.g, measure)
+                (one.alpha if by_alpha else one.g, measure, one)
                 for one, measure in rows
                 if one.alpha == alpha and variant in (None, one.variant)
             ]
             known = sorted(
                 (x, max(m.value, _SMALLEST_DRAWN), m.passed is False)
-                for x, m in mine
+                for x, m, _ in mine
                 if math.isfinite(m.value)
             )
-            lost += [(x, colour) for x, m in mine if math.isnan(m.value)]
+            lost += [(x, colour) for x, _, one in mine if _nothing_known(one)]
             for broken in (False, True):
                 points = [(x, y) for x, y, failed in known if failed == broken]
                 ax.plot(
@@ -429,6 +429,11 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     plots._label(ax, x_label, f"{_SYMBOLS.get(name, name)} [-]")
     plots._legend(ax, 2 if by_variant else 3)
     return ax
+
+
+def _nothing_known(finding: Finding) -> bool:
+    """Return whether a configuration was not reached, rather than lacks a single measure."""
+    return not any(math.isfinite(measure.value) for measure in finding.measures)
 
 
 def _draw_bounds(ax: Axes, rows: Sequence[tuple[Finding, Measure]], by_alpha: bool) -> None:
