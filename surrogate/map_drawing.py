@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.boundaries import Boundary
+from surrogate.errors import InputError
 from surrogate.figures import GREY, MEDIUM, SMALL
 from surrogate.map_axes import MapAxis
 from surrogate.map_boundaries import formula_name
@@ -42,12 +43,21 @@ Array = NDArray[np.float64]
 
 _CONTACT, _HATCH = "#333333", "#909090"
 
+_LARGEST_SHOWN = 1e100
+"""Ticks go decades beyond the ends of an axis, and must stay floating-point numbers."""
+
 
 def set_up(ax: Axes, made: RegimeMap) -> None:
-    """Give the axes the map's scales, limits and labels."""
+    """Give the axes the map's scales, limits and labels.
+
+    Raises
+    ------
+    InputError
+        If an axis has numbers for which there are no ticks.
+    """
     for axis, which in ((made.x, "x"), (made.y, "y")):
         getattr(ax, f"set_{which}scale")(axis.scale)
-        getattr(ax, f"set_{which}lim")(*_shown(axis, axis.values[[0, -1]]))
+        getattr(ax, f"set_{which}lim")(*_drawable(axis))
         getattr(ax, f"set_{which}label")(axis_label(axis), fontsize=MEDIUM)
     ax.tick_params(which="both", labelsize=SMALL)
     ax.set_facecolor(FILLS["transition"])
@@ -56,6 +66,19 @@ def set_up(ax: Axes, made: RegimeMap) -> None:
 def _shown(axis: MapAxis, values: Any) -> Any:
     """Return values of an axis in the unit that figures show."""
     return SHOWN_UNITS[axis.unit][0] * np.asarray(values)
+
+
+def _drawable(axis: MapAxis) -> Array:
+    """Return the ends of an axis as shown, if ticks can be placed around them."""
+    ends: Array = _shown(axis, axis.values[[0, -1]])
+    if ends[-1] > _LARGEST_SHOWN or 0.0 < ends[0] < 1.0 / _LARGEST_SHOWN:
+        unit = f" {axis.unit}" if axis.unit else ""
+        raise InputError(
+            f"a figure's numbers must be between {1.0 / _LARGEST_SHOWN:g} and {_LARGEST_SHOWN:g}, "
+            f"but the map's {axis.name} goes from {axis.values[0]:.4g} to "
+            f"{axis.values[-1]:.4g}{unit}; narrow the range, or take the numbers by to_csv."
+        )
+    return ends
 
 
 def _mesh(made: RegimeMap) -> tuple[Array, Array]:

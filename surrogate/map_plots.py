@@ -88,10 +88,12 @@ def plot_regime_map(
     Raises
     ------
     InputError
-        If `made` is no map, the width has no such name, a limit has no line of that name, a point
-        is outside the map, or an argument of another kind than is asked for.
+        If `made` is no map or ends beyond 1e100, the width has no such name, a limit has no line
+        of that name, a point is outside the map, or an argument of another kind than is asked for.
     UnknownModelError
         If there is no model `error_of`, or a limit is none.
+    DomainError
+        If the model `error_of` has no answer at a node.
     WirecutError
         If matplotlib is not installed.
 

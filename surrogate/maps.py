@@ -171,6 +171,8 @@ class RegimeMap:
         ------
         UnknownModelError
             If there is no such model.
+        DomainError
+            If it has no answer at a node.
         """
         other = cutting_force(self.scene, model, extrapolate=True)
         return relative_difference(other.total, self.force.total)
