@@ -85,6 +85,12 @@ class Design:
     wear_strength_std: float
     noise: Noise
 
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_record
+
+        return html_of_record(self)
+
     def gain_over(self, wire_radius: ArrayLike) -> tuple[float, float]:
         """Return how many times smaller the standard errors are than with other radii.
 

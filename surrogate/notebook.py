@@ -46,10 +46,13 @@ def html_of_record(record: Any) -> str:
     True
     """
     units = _units(type(record))
-    rows = [
-        (field.name, _short(getattr(record, field.name)), units.get(field.name, ""))
-        for field in fields(record)
-    ]
+    rows = []
+    for field in fields(record):
+        value, unit = getattr(record, field.name), units.get(field.name, "")
+        if isinstance(value, Mapping):
+            rows += [(f"{field.name}: {key}", _short(part), unit) for key, part in value.items()]
+        else:
+            rows.append((field.name, _short(value), unit))
     return html_table(type(record).__name__, rows)
 
 

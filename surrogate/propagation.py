@@ -70,6 +70,12 @@ class UncertainForce:
     model_std: FloatOrArray | None
     model: str
 
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_record
+
+        return html_of_record(self)
+
 
 def propagate(
     scene: Scene,

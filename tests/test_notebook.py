@@ -43,6 +43,17 @@ def test_a_force_and_a_regime():
     assert rows["dominant"] == "2 values: toughness-and-friction, wear"
 
 
+def test_a_force_with_its_standard_deviation_and_a_choice_of_wires():
+    force = surrogate.propagate(GEL, {"toughness": 0.2, "wear_strength": 500.0}, "eq13")
+    rows = {name: (value, unit) for name, value, unit in cells(force._repr_html_())}
+    assert rows["total"] == ("2 values, 1.91 to 7.8", "N/m")
+    assert rows["contributions: toughness"] == ("2 values, 0.2 to 0.2", "N/m")
+    design = surrogate.design_radii(1e-4, 5e-4, cuts=5, force_std=0.5)
+    rows = {name: (value, unit) for name, value, unit in cells(design._repr_html_())}
+    assert rows["wire_radius"] == ("5 values, 0.0001 to 0.0005", "m")
+    assert rows["toughness_std"] == (f"{design.toughness_std:.4g}", "J/m2")
+
+
 def test_arrays_without_numbers():
     empty = Scene(1.0, np.empty(0), 1.0)
     rows = {name: value for name, value, _ in cells(empty._repr_html_())}
