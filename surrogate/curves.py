@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surrogate.cuts import PREDICTED_RADIUS
 from surrogate.errors import InputError, WirecutError
 from surrogate.export import write_csv
 from surrogate.force_models import force_model
@@ -139,7 +140,7 @@ def _curve(fit: Identification, wire_radius: ArrayLike | None) -> dict[tuple[str
     if wire_radius is None:
         wire_radius = curve_radii(fit, fit.wire_radius.max())
         wire_radius = wire_radius[wire_radius > 0.0]
-    radius = np.atleast_1d(np.asarray(wire_radius))
+    radius = np.atleast_1d(np.asarray(PREDICTED_RADIUS.checked(wire_radius)))
     low, high = fit.band(radius)
     return {
         ("wire_radius", "m"): radius,

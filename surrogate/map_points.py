@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,6 +58,7 @@ class MapPoints:
     def __post_init__(self) -> None:
         require_scene(self.scene, "the scene of map points")
         text("the label of map points", self.label, "give the name in the legend")
+        checked = {}
         for name, value in mapping("std", self.std, "{'toughness': 0.2}").items():
             if name not in NAMES:
                 raise InputError(
@@ -65,8 +67,9 @@ class MapPoints:
                 )
             unit = QUANTITIES[NAMES.index(name)].unit
             error = Quantity(f"standard error of {name}", unit, "give the standard error")
-            shapes = error.checked(value), *self.scene.values()
-            broadcast_shape((error.name, *NAMES), shapes)
+            checked[name] = error.checked(value)
+            broadcast_shape((error.name, *NAMES), (checked[name], *self.scene.values()))
+        object.__setattr__(self, "std", MappingProxyType(checked))
 
 
 def places(points: MapPoints, made: RegimeMap) -> tuple[Array, Array]:
@@ -81,7 +84,7 @@ def places(points: MapPoints, made: RegimeMap) -> tuple[Array, Array]:
     for axis, value in zip((made.x, made.y), made.locate(points.scene), strict=True):
         variance: Any = 0.0
         for name, power in axis.coordinate.powers.items():
-            std = np.asarray(points.std.get(name, 0.0), dtype=float)
+            std = np.asarray(points.std.get(name, 0.0))
             with np.errstate(all="ignore"):
                 relative = np.divide(power * std, getattr(points.scene, name))
             variance = variance + np.where(std == 0.0, 0.0, relative**2)

@@ -8,6 +8,7 @@ import pytest
 
 from surrogate import (
     InputError,
+    MapPoints,
     Scene,
     cutting_force,
     fracto_cohesive_transition_radius,
@@ -15,6 +16,8 @@ from surrogate import (
     identify,
     regime_map,
 )
+from surrogate.curves import write_curve
+from surrogate.map_points import places
 
 pint = pytest.importorskip("pint")
 u = pint.UnitRegistry()
@@ -48,6 +51,20 @@ def test_equations_identification_and_maps():
     assert fit.toughness == pytest.approx(plain.toughness, rel=1e-12)
     made = regime_map("R_w", "g", ((1 * u.um, 1 * u.mm), (1, 10)), {"mu": 1 * u.kPa}, nodes=3)
     np.testing.assert_allclose(made.x.values[[0, -1]], [1e-6, 1e-3], rtol=1e-15)
+
+
+def test_error_bars_on_maps_and_the_radii_of_exported_curves(tmp_path):
+    scene = Scene(0.685 * u.kPa, 1.6, 0.2 * u.mm, wear_strength=7750.0)
+    made = regime_map("R_w", "Gamma_o", ((1e-5, 1e-2), (0.1, 9)), {"mu": 685, "tau_w": 7750})
+    std = {"toughness": 200 * u.mJ / u.m**2, "wire_radius": [10] * u.um}
+    error = places(MapPoints(scene, "PAAm", std), made)[1]
+    np.testing.assert_allclose(error, [[1e-5], [0.2]], rtol=1e-12)
+    with pytest.raises(InputError, match="standard error of toughness must be a quantity in J/m"):
+        MapPoints(scene, "PAAm", {"toughness": 0.2 * u.Pa})
+    fit = identify([0.1, 0.2, 0.4] * u.mm, [4.7, 7.9, 13.9] * u.N / u.m, 0.685 * u.kPa)
+    write_curve(fit, tmp_path / "curve.csv", [0.1, 0.2] * u.mm)
+    lines = (tmp_path / "curve.csv").read_text().splitlines()[-2:]
+    assert [float(line.split(",")[0]) for line in lines] == pytest.approx([1e-4, 2e-4], rel=1e-12)
 
 
 @pytest.mark.parametrize(
