@@ -55,10 +55,11 @@ def plot_regime_map(
 ) -> Axes:
     """Draw a regime map: named regions, boundaries with their equations, and experiments on it.
 
-    Regions are filled where a term has the threshold's share of the force or more; between them
-    is the transition. Lines show where terms are equal. Where the model's own condition does not
-    hold, the map is hatched. Lengths are shown in mm and stresses in kPa. Changes nothing outside
-    its axes but their figure's layout, and shows nothing on the screen.
+    Regions are filled where a term has the threshold's share of the force or more, which ends on
+    thin lines; between them is the transition. Thick lines show where terms are equal. Where the
+    model's own condition does not hold, the map is hatched. Lengths are shown in mm and stresses in
+    kPa. Changes nothing outside its axes but their figure's layout, and shows nothing on the
+    screen.
 
     Parameters
     ----------
