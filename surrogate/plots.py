@@ -39,7 +39,10 @@ if TYPE_CHECKING:
 __all__ = ["plot_identification", "save_identification"]
 
 PURE_SHEAR_TOUGHNESS = replace(
-    TOUGHNESS, name="pure_shear_toughness", remedy="give Gamma in joules a square metre"
+    TOUGHNESS,
+    name="pure_shear_toughness",
+    remedy="give Gamma in joules a square metre",
+    upper=1e100,  # axes cannot reach farther
 )
 
 

@@ -19,7 +19,7 @@ from .values import LONG, NOT_NUMBERS, NUMBERS, SIZES, arrays_of, kinds_of
 
 __all__ = ["corners", "extremes"]
 
-SECONDS = 20
+SECONDS = 60
 WAITING = 15
 """Times as long by the clock, for what waits and does not compute."""
 CHECKED, SOUND, REFUSED = "value as exact", "value", "refused by name"
