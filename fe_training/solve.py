@@ -138,11 +138,16 @@ def _far_field(alpha: float, g: float, settings: Settings, shift: bool) -> Recor
         state = _landed(rough, state, g)
         cut = far_field_cut(alpha, -float(state.centre[0]), settings)
         state = _landed(cut, cut.taken_over(rough, state), g)
-        for _ in range(_SHARPENINGS):
-            state = cut.sharpened(state, Control.POSITION)
-        return cut.record(state, g, shift)
+        return cut.record(_sharp(cut, state, Control.POSITION), g, shift)
     except PathStalledError as error:
         return cut.failure(error, g)
+
+
+def _sharp(cut: Cut, state: State, control: Control) -> State:
+    """Return the state at the same value of a control with the ends of the contact split."""
+    for _ in range(_SHARPENINGS):
+        state = cut.sharpened(state, control)
+    return state
 
 
 def _way_to(cut: Cut, state: State, g: float) -> float:
@@ -298,8 +303,8 @@ def _solve_to(
     if position < _START - 0.3:
         cut = far_field_cut(alpha, -position, settings)
         try:
-            state = cut.raised(position)
-            return cut.record(cut.last(state, control, target, _APPROACH), shift=shift)
+            state = cut.last(cut.raised(position), control, target, _APPROACH)
+            return cut.record(_sharp(cut, state, control), shift=shift)
         except PathStalledError as error:
             return cut.failure(error)
     cut = indentation_cut(alpha, settings)
