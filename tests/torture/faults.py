@@ -33,7 +33,7 @@ from fake_engine import run  # noqa: E402 (found by the line above)
 ENGINE = CAMPAIGN / "fake_engine.py"
 MEMORY = Path("/dev/shm")
 """Where stores are kept if possible: rows are flushed to the disk one by one, which takes time."""
-SECONDS, PAUSE = 120, "0.04"
+SECONDS, PAUSE, SLOW = 120, "0.04", "0.5"
 
 
 def faults(kills=25, seed=0, budget=420.0):
@@ -196,7 +196,7 @@ class Trial:
     def two_writers(self):
         """Start two campaigns on one store: the second is told, the first not disturbed."""
         store, fault = self.store(), "two writers"
-        first = self.start(store)
+        first = self.start(store, SLOW)  # at work for longer than the second needs to start
         while not rows_of(store) and first.poll() is None:
             time.sleep(0.02)
         code, said = self.finished(self.start(store))
