@@ -1,0 +1,181 @@
+"""The fitted models in 50 digits, each by its own definition, from the numbers in their file."""
+
+import time
+from functools import cached_property
+
+import mpmath
+import numpy as np
+
+from surrogate.fitted import shipped
+from surrogate.gaussian_process import JITTER
+from surrogate.quantities import QUANTITIES
+
+from .exact import mp
+from .part import Part
+
+__all__ = ["Precise", "precise"]
+
+WANTED = 1e-9
+"""Largest relative error of A, B and delta, and so of any force."""
+
+
+def polynomial(coefficients, x):
+    """Return a polynomial of rising powers."""
+    return mpmath.polyval([mp(c) for c in reversed(coefficients)], x)
+
+
+def wedge(log_g):
+    """Return A, B and delta/R_w of the linear wedge."""
+    third = mpmath.pi / 3
+    k = (32 * mpmath.sqrt(mpmath.e / mpmath.pi)) ** (mp(2) / 3) * mpmath.exp(-2 * log_g / 3)
+    p = third / mpmath.lambertw(k * third).real
+    distance = 8 * p**2 / mpmath.pi * mpmath.exp(-log_g)
+    return dict(zip(QUANTITIES, (4 * mpmath.sqrt(p / mpmath.pi), 4 * p, distance), strict=True)), p
+
+
+class Precise:
+    """The models of one file."""
+
+    def __init__(self, fitted):
+        self.fitted, self.limits = fitted, fitted.limits
+
+    def values(self, model, g, alpha):
+        """Return A, B and delta/R_w anywhere, from the nearest point inside on."""
+        log_g, log_alpha = mpmath.log(mp(g)), mpmath.log(mp(alpha))
+        (low, high), (first, last) = (map(mpmath.log, ends) for ends in self._ends)
+        at, row = min(max(log_g, low), high), min(max(log_alpha, first), last)
+        inside = getattr(self, "_" + model.replace("-", "_"))(at, row)
+        return {n: self._continued(n, inside[n], log_g, at, row) for n in QUANTITIES}
+
+    @cached_property
+    def _ends(self):
+        return [[mp(end) for end in ends] for ends in (self.limits.g, self.limits.alpha)]
+
+    def _continued(self, name, value, log_g, at, row):
+        if log_g < at:
+            (seam, p_seam), (far, p) = wedge(at), wedge(log_g)
+            return far[name] * mpmath.exp(mpmath.log(value / seam[name]) * p / p_seam)
+        if log_g > at and name == "normal_load":
+            return value * mpmath.exp(polynomial(self.limits.growth, row) * (log_g - at))
+        if log_g > at and name == "distance":
+            way = self._touch(row) - at
+            left = max(1 - (log_g - at) / way, mp(0)) if way > 0 else mp(0)
+            return 1 + (value - 1) * left ** mp(1.75)
+        return value
+
+    def _touch(self, row):
+        return polynomial(self.limits.touch, row)
+
+    def _power_law(self, at, row):
+        a, b, c = ([mp(x) for x in self.fitted.constants[name]] for name in QUANTITIES)
+        y = 1 - 2 * mpmath.exp(-row)
+
+        def saturated(log_end, power):
+            return at - mpmath.log(1 + mpmath.exp(power * (at - log_end))) / power
+
+        k = mpmath.sqrt(1 + a[0] * ((2 / (1 - y)) ** 2 - 4))
+        arc = 2 / k * mpmath.sin(k * wedge(saturated(a[1] + a[2] * y, 2))[0]["arc"] / 2)
+        dip = a[3] * (1 - y) * mpmath.exp(-((at - a[4] - a[5] * y) ** 2) / 2)
+        load = wedge(saturated(b[0], 1))[0]["normal_load"]
+        load += mpmath.exp(b[1] + b[2] * y + b[3] * y**2 + (b[4] + b[5] * y) * at)
+        distance, x = mp(1), at - self._touch(row)
+        if x < 0:
+            left = 1 - mpmath.exp((c[0] + c[1] * y) * x)
+            distance += wedge(at)[0]["distance"] * left ** (c[2] + c[3] * y)
+        return dict(zip(QUANTITIES, (arc * (1 - dip), load, distance), strict=True))
+
+    def _table(self, at, row):
+        grid, touch = self.fitted.table.grid, self._touch(row)
+        low, (first, last) = mp(grid.log_g), map(mp, grid.log_alpha)
+        x = at - touch
+        per_x = grid.short / (touch - low) if x < 0 else mp(grid.past) / mp(grid.beyond)
+        t, s = per_x * x + grid.short, (row - first) * grid.stiffening / (last - first)
+        i = min(max(int(t), 0), grid.cells - 1)
+        j = min(max(int(s), 0), grid.stiffening - 1)
+        found = {}
+        for name in QUANTITIES:
+            cell = self.fitted.table.cells(name)[i * grid.stiffening + j].reshape(4, 4)
+            found[name] = polynomial([polynomial(row_of, s - j) for row_of in cell], t - i)
+        found["distance"] = 1 + (-x) ** mp(1.75) * found["distance"] if x < 0 else mp(1)
+        return found
+
+    def _gp(self, at, row):
+        x = at - self._touch(row)
+        scales = wedge(at)[0]
+        found = {}
+        for name in QUANTITIES:
+            quantity = self._mean(name, [at, row, max(x, mp(0))])
+            found[name] = scales[name] * mpmath.exp(quantity)
+        found["distance"] = 1 + (-x) ** mp(1.75) * found["distance"] if x < 0 else mp(1)
+        return found
+
+    def _mean(self, name, at):
+        process, points, weights = self._solved[name]
+        return mp(process.mean) + mpmath.fdot(covariances(process, points, at), weights)
+
+    @cached_property
+    def _solved(self):
+        return {name: solved(process) for name, process in self.fitted.processes.items()}
+
+
+def covariances(process, points, at):
+    """Return the prior covariances of points with one place."""
+    lengths = [mp(length) for length in process.lengths]
+    variance = mp(process.variance)
+    return [
+        variance * mpmath.exp(-sum(((p - x) / w) ** 2 for p, x, w in zip(one, at, lengths)) / 2)  # noqa: B905
+        for one in points
+    ]
+
+
+def solved(process):
+    """Return a process, the points that carry its prediction, and their weights."""
+    inputs = [[mp(x) for x in point] for point in process.inputs]
+    active = [inputs[i] for i in process.active]
+    values = [mp(v) - mp(process.mean) for v in process.values]
+    k_uf = [covariances(process, inputs, point) for point in active]
+    over = [[k / mp(n) for k, n in zip(row, process.noise, strict=True)] for row in k_uf]
+    system = mpmath.matrix(len(active))
+    for i, row in enumerate(over):
+        for j in range(i + 1):
+            known = mpmath.fdot(row, k_uf[j]) + k_uf[i][process.active[j]]
+            system[i, j] = system[j, i] = known
+        system[i, i] += mp(JITTER) * mp(process.variance)
+    right = mpmath.matrix([mpmath.fdot(row, values) for row in over])
+    return process, active, list(mpmath.lu_solve(system, right))
+
+
+def precise(number=300, models=("power-law", "table", "gp"), seed=0):
+    """Compare the fitted models with themselves in 50 digits, inside and outside their domain.
+
+    Parameters
+    ----------
+    number : int
+        Points for each model; a fifth of them outside the domain.
+    models : sequence of str
+        Their names.
+    seed : int
+        Of the points.
+    """
+    part = Part("precise", "Fitted models against themselves in 50 digits")
+    start, random = time.monotonic(), np.random.default_rng(seed)
+    fitted = shipped()
+    reference, limits = Precise(fitted), fitted.limits
+    log_g, alpha = random.uniform(*limits.log_g, number), random.uniform(*limits.alpha, number)
+    log_g[: number // 5] = random.uniform(-690.0, 690.0, number // 5)
+    alpha[: number // 10] = random.uniform(1.0, 20.0, number // 10)
+    for model in models:
+        worst = 0.0
+        for g, a in zip(np.exp(log_g).tolist(), alpha.tolist(), strict=True):
+            values = fitted.models[model].contact(QUANTITIES, g, a)
+            exact = reference.values(model, g, a)
+            errors = [abs(mp(v) / exact[n] - 1) for n, v in zip(QUANTITIES, values, strict=True)]
+            error = float(max(errors))
+            worst = max(worst, error)
+            if not error <= WANTED:
+                part.fail(model, "inexact", f"{model}(g = {g!r}, alpha = {a!r}): {error:.2g}")
+            else:
+                part.count(model, f"within {WANTED:g}")
+        part.notes.append(f"{model}: relative errors of A, B and delta up to {worst:.1e}")
+    part.seconds = time.monotonic() - start
+    return part
