@@ -21,7 +21,10 @@ WANTED = 1e-9
 
 def polynomial(coefficients, x):
     """Return a polynomial of rising powers."""
-    return mpmath.polyval([mp(c) for c in reversed(coefficients)], x)
+    value = mp(0)
+    for coefficient in reversed(coefficients):
+        value = value * x + mp(coefficient)
+    return value
 
 
 def wedge(log_g):
