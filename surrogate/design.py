@@ -14,6 +14,7 @@ from surrogate.errors import InputError
 from surrogate.force import cutting_force
 from surrogate.least_squares import solve_least_squares
 from surrogate.linear_fit import linear_form
+from surrogate.records import Shown
 from surrogate.scene import Scene, require_scene
 from surrogate.validation import Quantity, one_number, shown
 
@@ -59,7 +60,7 @@ class Noise:
 
 
 @dataclass(frozen=True, eq=False)
-class Design:
+class Design(Shown):
     """Radii to cut with and what they promise; see `design_radii`.
 
     Parameters
@@ -84,12 +85,6 @@ class Design:
     toughness_std: float
     wear_strength_std: float
     noise: Noise
-
-    def _repr_html_(self) -> str:
-        """What notebooks show."""
-        from surrogate.notebook import html_of_record
-
-        return html_of_record(self)
 
     def gain_over(self, wire_radius: ArrayLike) -> tuple[float, float]:
         """Return how many times smaller the standard errors are than with other radii.

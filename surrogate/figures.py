@@ -174,6 +174,10 @@ def _write(figure: Figure, file: Any, ending: str) -> None:
         figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
 
 
+LARGEST_SHOWN = 1e100
+"""Ticks go decades beyond the ends of an axis, and must stay floating-point numbers."""
+
+
 def legend_above(
     ax: Axes, columns: int, handles: list[Any] | None = None, left: float = -0.1
 ) -> None:

@@ -45,14 +45,13 @@ def toughness_of(distance_of: Callable[[Any], Any], distance: Any, log_touch: An
     0.062500
     """
     goal = _height(distance)
-    with np.errstate(all="ignore"):  # what the rounding of a distance does to its height
-        close = _CLOSE / np.log1p(distance - 1.0)
-    low = where(np.equal(distance, distance) & (log_touch == log_touch), _NEAREST, np.nan)
-    high = where(low == low, _FARTHEST, np.nan)
+    close = _CLOSE * exp(-goal)  # what the rounding of a distance does to its height
+    known = np.equal(distance, distance) & np.equal(log_touch, log_touch)
+    low, high = where(known, _NEAREST, np.nan), where(known, _FARTHEST, np.nan)
     found = 0.5 * (low + high)
-    below, above = where(low == low, -np.inf, np.nan), where(low == low, np.inf, np.nan)
-    side: Any = where(low == low, 0.0, np.nan)  # of the last value: -1 below the goal, 1 above
-    busy: Any = (low == low) & (distance < np.inf)
+    below, above = where(known, -np.inf, np.nan), where(known, np.inf, np.nan)
+    side = where(known, 0.0, np.nan)  # of the last value: -1 below the goal, 1 above
+    busy: Any = known & np.less(distance, np.inf)
     for _ in range(_MOST):
         if not np.any(busy):
             break

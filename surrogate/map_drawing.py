@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from surrogate.boundaries import Boundary
 from surrogate.errors import InputError
-from surrogate.figures import GREY, MEDIUM, SMALL
+from surrogate.figures import GREY, LARGEST_SHOWN, MEDIUM, SMALL
 from surrogate.map_axes import MapAxis
 from surrogate.map_boundaries import formula_name
 from surrogate.map_points import MapPoints
@@ -43,9 +43,6 @@ Array = NDArray[np.float64]
 
 _CONTACT, _HATCH = "#333333", "#909090"
 
-_LARGEST_SHOWN = 1e100
-"""Ticks go decades beyond the ends of an axis, and must stay floating-point numbers."""
-
 
 def set_up(ax: Axes, made: RegimeMap) -> None:
     """Give the axes the map's scales, limits and labels.
@@ -71,10 +68,10 @@ def _shown(axis: MapAxis, values: Any) -> Any:
 def _drawable(axis: MapAxis) -> Array:
     """Return the ends of an axis as shown, if ticks can be placed around them."""
     ends: Array = _shown(axis, axis.values[[0, -1]])
-    if ends[-1] > _LARGEST_SHOWN or 0.0 < ends[0] < 1.0 / _LARGEST_SHOWN:
+    if ends[-1] > LARGEST_SHOWN or 0.0 < ends[0] < 1.0 / LARGEST_SHOWN:
         unit = f" {axis.unit}" if axis.unit else ""
         raise InputError(
-            f"a figure's numbers must be between {1.0 / _LARGEST_SHOWN:g} and {_LARGEST_SHOWN:g}, "
+            f"a figure's numbers must be between {1.0 / LARGEST_SHOWN:g} and {LARGEST_SHOWN:g}, "
             f"but the map's {axis.name} goes from {axis.values[0]:.4g} to "
             f"{axis.values[-1]:.4g}{unit}; narrow the range, or take the numbers by to_csv."
         )

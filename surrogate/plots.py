@@ -15,6 +15,7 @@ from surrogate.curves import curve_radii, require_identification
 from surrogate.figures import (
     BLUE,
     GREY,
+    LARGEST_SHOWN,
     MEDIUM,
     RED,
     SINGLE_COLUMN,
@@ -42,7 +43,7 @@ PURE_SHEAR_TOUGHNESS = replace(
     TOUGHNESS,
     name="pure_shear_toughness",
     remedy="give Gamma in joules a square metre",
-    upper=1e100,  # axes cannot reach farther
+    upper=LARGEST_SHOWN,
 )
 
 

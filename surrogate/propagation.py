@@ -17,6 +17,7 @@ from surrogate.gradient import force_gradient
 from surrogate.model_error import contact_std
 from surrogate.one_model import one_model
 from surrogate.options import mapping
+from surrogate.records import Shown
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 from surrogate.validation import FloatOrArray, Quantity, broadcast_shape, one_number, shown
 
@@ -39,7 +40,7 @@ _STD = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class UncertainForce:
+class UncertainForce(Shown):
     """A steady cutting force per unit thickness with its standard deviation.
 
     Parameters
@@ -69,12 +70,6 @@ class UncertainForce:
     contributions: Mapping[str, FloatOrArray]
     model_std: FloatOrArray | None
     model: str
-
-    def _repr_html_(self) -> str:
-        """What notebooks show."""
-        from surrogate.notebook import html_of_record
-
-        return html_of_record(self)
 
 
 def propagate(

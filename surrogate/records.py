@@ -7,10 +7,22 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Record"]
+__all__ = ["Record", "Shown"]
 
 
-class Record:
+class Shown:
+    """Base of dataclasses that notebooks show as a table of their fields."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        from surrogate.notebook import html_of_record
+
+        return html_of_record(self)
+
+
+class Record(Shown):
     """Base of frozen dataclasses whose fields may be arrays: equal where all fields are.
 
     The comparison that a dataclass would write itself fails on arrays. Hashing works where all
@@ -29,9 +41,3 @@ class Record:
 
     def __hash__(self) -> int:
         return hash(self._values())
-
-    def _repr_html_(self) -> str:
-        """What notebooks show."""
-        from surrogate.notebook import html_of_record
-
-        return html_of_record(self)

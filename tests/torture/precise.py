@@ -125,10 +125,11 @@ def covariances(process, points, at):
     """Return the prior covariances of points with one place."""
     lengths = [mp(length) for length in process.lengths]
     variance = mp(process.variance)
-    return [
-        variance * mpmath.exp(-sum(((p - x) / w) ** 2 for p, x, w in zip(one, at, lengths)) / 2)  # noqa: B905
-        for one in points
-    ]
+
+    def squared(one):
+        return sum(((p - x) / w) ** 2 for p, x, w in zip(one, at, lengths, strict=True))
+
+    return [variance * mpmath.exp(-squared(one) / 2) for one in points]
 
 
 def solved(process):
