@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from surrogate.errors import AccuracyError, DomainError, InputError, UnknownModelError, WirecutError
+from surrogate.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from surrogate.catalogue import ModelInfo, models
@@ -47,8 +48,6 @@ if TYPE_CHECKING:
     )
     from surrogate.regimes import Regime, classify
     from surrogate.scene import Scene
-
-__version__ = "0.1.0"
 
 __all__ = [
     "FORCE_MODELS",

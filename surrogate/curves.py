@@ -15,6 +15,7 @@ from surrogate.force_models import force_model
 from surrogate.identification import Identification
 from surrogate.linear_fit import is_linear
 from surrogate.validation import shown
+from surrogate.version import __version__
 
 if TYPE_CHECKING:
     import xarray
@@ -160,8 +161,6 @@ def require_identification(value: object) -> None:
 
 
 def _about(fit: Identification) -> list[str]:
-    from surrogate import __version__
-
     return [
         f"identification by model {fit.model}, wirecut {__version__}",
         f"toughness = {fit.toughness!r} J/m2, wear strength = {fit.wear_strength!r} Pa, "

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from surrogate import plausibility
 from surrogate.force_models import ClosedForm, ForceModel, force_model
+from surrogate.identified import Estimate
 from surrogate.plausibility import doubts
 from surrogate.statistics import normal_quantile, student_quantile
-
-if TYPE_CHECKING:
-    from surrogate.identified import Identification
 
 LARGEST_CONDITION = 30.0
 """Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
@@ -29,12 +26,12 @@ CORNER = 1e-3
 _ROUNDING = 64.0 * np.finfo(float).eps
 
 
-def fit_warnings(fit: Identification) -> Iterator[str]:
+def fit_warnings(fit: Estimate) -> Iterator[str]:
     """Yield one sentence for each reason to doubt an identification.
 
     Parameters
     ----------
-    fit : Identification
+    fit : Estimate
         The identification to look at.
 
     Yields
@@ -62,7 +59,7 @@ def fit_warnings(fit: Identification) -> Iterator[str]:
         yield from reasons(fit)
 
 
-def _implausible(fit: Identification) -> Iterator[str]:
+def _implausible(fit: Estimate) -> Iterator[str]:
     yield from doubts(plausibility.RADIUS, fit.wire_radius)
     yield from doubts(plausibility.FORCE, fit.force)
     yield from doubts(plausibility.SHEAR_MODULUS, fit.shear_modulus)
@@ -75,7 +72,7 @@ def _implausible(fit: Identification) -> Iterator[str]:
         yield from doubts(plausibility.COHESIVE_LENGTH, least / fit.shear_modulus)
 
 
-def _too_few_radii(fit: Identification) -> Iterator[str]:
+def _too_few_radii(fit: Estimate) -> Iterator[str]:
     if (distinct := np.unique(fit.wire_radius).size) < 3:
         yield (
             f"only {distinct} different radii: they cannot show whether the forces lie on a "
@@ -83,7 +80,7 @@ def _too_few_radii(fit: Identification) -> Iterator[str]:
         )
 
 
-def _condition(fit: Identification) -> Iterator[str]:
+def _condition(fit: Estimate) -> Iterator[str]:
     if fit.condition > LARGEST_CONDITION:
         smallest, largest = 1e3 * fit.wire_radius.min(), 1e3 * fit.wire_radius.max()
         yield (
@@ -93,7 +90,7 @@ def _condition(fit: Identification) -> Iterator[str]:
         )
 
 
-def _negative_estimates(fit: Identification) -> Iterator[str]:
+def _negative_estimates(fit: Estimate) -> Iterator[str]:
     remedy = "check the units, the friction coefficient and that radii are not diameters"
     if fit.toughness < 0.0:
         yield f"the toughness is negative ({fit.toughness:.4g} J/m2) and is not clipped; {remedy}"
@@ -104,7 +101,7 @@ def _negative_estimates(fit: Identification) -> Iterator[str]:
         )
 
 
-def _limits(fit: Identification) -> Iterator[str]:
+def _limits(fit: Estimate) -> Iterator[str]:
     if fit.profile is None:
         return
     if fit.profile.modes[0].at_end:
@@ -123,7 +120,7 @@ def _limits(fit: Identification) -> Iterator[str]:
             yield f"the {name} is 0, its limit: no larger one meets the forces as well"
 
 
-def _regime(fit: Identification) -> Iterator[str]:
+def _regime(fit: Estimate) -> Iterator[str]:
     chosen = force_model(fit.model)
     if not isinstance(chosen, ClosedForm):
         yield from _domain(fit, chosen)
@@ -144,7 +141,7 @@ def _regime(fit: Identification) -> Iterator[str]:
         )
 
 
-def _domain(fit: Identification, chosen: ForceModel) -> Iterator[str]:
+def _domain(fit: Estimate, chosen: ForceModel) -> Iterator[str]:
     holds = np.broadcast_to(
         chosen.in_domain(
             fit.shear_modulus,
@@ -163,7 +160,7 @@ def _domain(fit: Identification, chosen: ForceModel) -> Iterator[str]:
         )
 
 
-def _scatter(fit: Identification) -> Iterator[str]:
+def _scatter(fit: Estimate) -> Iterator[str]:
     if fit.force_std is None and fit.dof == 0:
         yield (
             f"two forces determine the {_shape(fit)} exactly and leave no measure of scatter: "
@@ -184,7 +181,7 @@ def _scatter(fit: Identification) -> Iterator[str]:
             )
 
 
-def _outlier(fit: Identification) -> Iterator[str]:
+def _outlier(fit: Estimate) -> Iterator[str]:
     """Compare the residuals with their own spread (Bonferroni over cuts), and name the worst.
 
     Only the worst, because one bad cut drags the line away from the good ones. Without known
@@ -218,7 +215,7 @@ def _outlier(fit: Identification) -> Iterator[str]:
         )
 
 
-def _at_corner(fit: Identification) -> bool:
+def _at_corner(fit: Estimate) -> bool:
     """Return whether the misfit has a corner at the estimate, as where the tip touches a wire.
 
     At a smooth minimum the weighted residuals are at right angles to the force's slope.
@@ -231,11 +228,11 @@ def _at_corner(fit: Identification) -> bool:
     return bool(abs(slope @ residuals) > CORNER * size)
 
 
-def _shape(fit: Identification) -> str:
+def _shape(fit: Estimate) -> str:
     return "line" if isinstance(force_model(fit.model), ClosedForm) else "curve"
 
 
-def _is_exact(fit: Identification) -> bool:
+def _is_exact(fit: Estimate) -> bool:
     return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= _ROUNDING * np.max(fit.force))
 
 

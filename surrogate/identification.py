@@ -2,25 +2,112 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.cuts import Array, series_of_cuts
+from surrogate.fit_warnings import fit_warnings
 from surrogate.force_models import AUTO
-from surrogate.identified import Identification
+from surrogate.identified import Estimate
 from surrogate.known import NOTHING_KNOWN, known
 from surrogate.linear_fit import fit_line, is_linear
+from surrogate.notebook import html_table
 from surrogate.one_model import one_model
 from surrogate.profile_fit import fit_profile
-from surrogate.validation import Quantity, one_number
+from surrogate.tables import number
+from surrogate.undecided import undecided
+from surrogate.validation import LARGEST, Quantity, one_number
 
 __all__ = ["Identification", "identify"]
 
 CONFIDENCE = Quantity(
     "confidence", "", "give 0.95 for 95 %", lower=1e-30, upper=1.0 - np.finfo(float).epsneg
 )
+
+
+@dataclass(frozen=True, eq=False)
+class Identification(Estimate):
+    """What a series of wire cuts says about a material; see `identify`.
+
+    Parameters
+    ----------
+    toughness, wear_strength : float
+        Estimates of Gamma_o [J/m2] and tau_w [Pa]; with `profile` None, negative where the data
+        say so.
+    covariance : ndarray, shape (2, 2)
+        Of (toughness, wear_strength), near the estimate; nan where the data leave no measure of
+        scatter.
+    correlation : float
+        Of the two estimates [-]; nan where one of them was given.
+    residuals : ndarray, shape (n,)
+        Measured minus fitted F_ss/T [N/m].
+    r_squared : float
+        Share of the forces' variation that the fit explains [-]; nan where they do not vary.
+    reduced_chi_squared : float or None
+        Sum of squared residuals in units of `force_std`, per degree of freedom [-]; None
+        without `force_std`, nan without degrees of freedom.
+    condition : float
+        Condition number of the design matrix with columns of unit length [-].
+    leverage : ndarray, shape (n,)
+        Weight of each force in its own prediction [-].
+    wire_radius, force, force_std : ndarray, shape (n,)
+        The measurements [m], [N/m], [N/m]; `force_std` may be None.
+    shear_modulus, friction_coefficient, stiffening_exponent : float
+        What was given: mu [Pa], xi [-], alpha [-].
+    model : str
+        Name of the force model.
+    confidence : float
+        Probability that each interval states [-].
+    known : Known
+        What was given besides the forces.
+    profile : Profile or None
+        The misfit along the toughness, with all its minima (`modes`) and the pieces of the
+        intervals; None where the force is a straight line in both unknowns and nothing else was
+        given.
+    further_wire : FurtherWire or None
+        The wire that would tell most about what `undecided` names; None without `profile`.
+    model_error : tuple of float, or None
+        How far the measured error bounds of a fitted model's A and B can move Gamma_o [J/m2] and
+        tau_w [Pa] at most, to first order; None for closed forms, whose errors nobody states.
+
+    Notes
+    -----
+    Standard errors and intervals are those of the forces' scatter; `model_error` comes on top.
+
+    With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
+    errors and covariance are those of the force's derivatives at the estimate.
+
+    Standard errors of lengths come from the covariance by first-order propagation, with mu and xi
+    taken as exact. They hold where the standard error of tau_w is small beside tau_w.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (10) to (15).
+
+    Examples
+    --------
+    >>> from surrogate import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 685.0, model="eq13")
+    >>> print(f"l_w = {1e6 * fit.wear_length:.1f} +- {1e6 * fit.wear_length_std:.1f} um")
+    l_w = 209.7 +- 18.5 um
+    """
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What makes the result doubtful, in words."""
+        return tuple(fit_warnings(self))
+
+    @property
+    def undecided(self) -> tuple[str, ...]:
+        """What the forces do not decide, and which further wire would, in words."""
+        return tuple(undecided(self))
+
+    def _repr_html_(self) -> str:
+        """What notebooks show."""
+        return _html(self)
 
 
 def identify(
@@ -207,6 +294,32 @@ def identify(
         confidence=probability,
         known=given,
     )
+
+
+def _html(fit: Identification) -> str:
+    """Return estimates with intervals, lengths, and everything that is to be said about them."""
+
+    def interval(low: float, high: float, scale: float) -> str:
+        ends = number(scale * low), "any" if high >= LARGEST else number(scale * high)
+        return f" ({100.0 * fit.confidence:.3g} %: {ends[0]} to {ends[1]})"
+
+    rows = [
+        ("model", fit.model, ""),
+        (
+            "cleavage toughness",
+            number(fit.toughness) + interval(*fit.toughness_interval, 1.0),
+            "J/m2",
+        ),
+        (
+            "wear strength",
+            number(1e-3 * fit.wear_strength) + interval(*fit.wear_strength_interval, 1e-3),
+            "kPa",
+        ),
+        ("l_w = Gamma_o/tau_w", number(1e6 * fit.wear_length), "um"),
+        *(("warning", warning, "") for warning in fit.warnings),
+        *(("undecided", sentence, "") for sentence in fit.undecided),
+    ]
+    return html_table("Identification", rows)
 
 
 def _correlation(covariance: Array) -> float:

@@ -1,4 +1,4 @@
-"""What the forces of several wires say about a material: the record that `identify` returns."""
+"""What the forces of several wires say about a material, in numbers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike
 
 from surrogate.cuts import PREDICTED_RADIUS, Array, Cuts
 from surrogate.errors import DomainError
-from surrogate.fit_warnings import fit_warnings
 from surrogate.force_models import force_model
 from surrogate.further_wire import FurtherWire, forces_of
 from surrogate.known import NOTHING_KNOWN, Known
@@ -19,78 +18,14 @@ from surrogate.profile import Interval, Profile
 from surrogate.radii import transition_radius, wear_transition_radius
 from surrogate.scene import Scene
 from surrogate.statistics import normal_quantile, student_quantile
-from surrogate.undecided import undecided
 from surrogate.validation import LARGEST, Quantity
 
-__all__ = ["Identification"]
+__all__ = ["Estimate"]
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
-    """What a series of wire cuts says about a material; see `identify`.
-
-    Parameters
-    ----------
-    toughness, wear_strength : float
-        Estimates of Gamma_o [J/m2] and tau_w [Pa]; with `profile` None, negative where the data
-        say so.
-    covariance : ndarray, shape (2, 2)
-        Of (toughness, wear_strength), near the estimate; nan where the data leave no measure of
-        scatter.
-    correlation : float
-        Of the two estimates [-]; nan where one of them was given.
-    residuals : ndarray, shape (n,)
-        Measured minus fitted F_ss/T [N/m].
-    r_squared : float
-        Share of the forces' variation that the fit explains [-]; nan where they do not vary.
-    reduced_chi_squared : float or None
-        Sum of squared residuals in units of `force_std`, per degree of freedom [-]; None
-        without `force_std`, nan without degrees of freedom.
-    condition : float
-        Condition number of the design matrix with columns of unit length [-].
-    leverage : ndarray, shape (n,)
-        Weight of each force in its own prediction [-].
-    wire_radius, force, force_std : ndarray, shape (n,)
-        The measurements [m], [N/m], [N/m]; `force_std` may be None.
-    shear_modulus, friction_coefficient, stiffening_exponent : float
-        What was given: mu [Pa], xi [-], alpha [-].
-    model : str
-        Name of the force model.
-    confidence : float
-        Probability that each interval states [-].
-    known : Known
-        What was given besides the forces.
-    profile : Profile or None
-        The misfit along the toughness, with all its minima (`modes`) and the pieces of the
-        intervals; None where the force is a straight line in both unknowns and nothing else was
-        given.
-    further_wire : FurtherWire or None
-        The wire that would tell most about what `undecided` names; None without `profile`.
-    model_error : tuple of float, or None
-        How far the measured error bounds of a fitted model's A and B can move Gamma_o [J/m2] and
-        tau_w [Pa] at most, to first order; None for closed forms, whose errors nobody states.
-
-    Notes
-    -----
-    Standard errors and intervals are those of the forces' scatter; `model_error` comes on top.
-
-    With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
-    errors and covariance are those of the force's derivatives at the estimate.
-
-    Standard errors of lengths come from the covariance by first-order propagation, with mu and xi
-    taken as exact. They hold where the standard error of tau_w is small beside tau_w.
-
-    References
-    ----------
-    arXiv:2412.02021, Eqs. (10) to (15).
-
-    Examples
-    --------
-    >>> from surrogate.identification import identify
-    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 685.0, model="eq13")
-    >>> print(f"l_w = {1e6 * fit.wear_length:.1f} +- {1e6 * fit.wear_length_std:.1f} um")
-    l_w = 209.7 +- 18.5 um
-    """
+class Estimate:
+    """The numbers of an identification; its subclass `Identification` documents the fields."""
 
     toughness: float
     wear_strength: float
@@ -113,22 +48,6 @@ class Identification:
     profile: Profile | None = None
     further_wire: FurtherWire | None = None
     model_error: tuple[float, float] | None = None
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What makes the result doubtful, in words."""
-        return tuple(fit_warnings(self))
-
-    @property
-    def undecided(self) -> tuple[str, ...]:
-        """What the forces do not decide, and which further wire would, in words."""
-        return tuple(undecided(self))
-
-    def _repr_html_(self) -> str:
-        """What notebooks show."""
-        from surrogate.notebook import html_of_identification
-
-        return html_of_identification(self)
 
     @property
     def cuts(self) -> Cuts:

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from surrogate import __version__
 from surrogate.errors import InputError, WirecutError
 from surrogate.paths import model_file, models_folder
 from surrogate.tables import table
+from surrogate.version import __version__
 
 __all__ = ["Check", "check_installation", "doctor_record", "doctor_text", "version_text"]
 

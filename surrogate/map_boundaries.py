@@ -7,7 +7,6 @@ stiffness; for other models the parts of the force.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
@@ -15,15 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.boundaries import Boundary, Lines, contours, exact_lines
-from surrogate.force import CuttingForce, cutting_force
+from surrogate.force import cutting_force
 from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
-from surrogate.map_axes import MapAxis
+from surrogate.map_record import MapRecord
 from surrogate.map_scene import Monomial
 from surrogate.options import items
 from surrogate.regimes import CONTACTS, SPLIT_MODEL, TOUCHING_TOUGHNESS, touching_toughness
-from surrogate.scene import Scene
 
-__all__ = ["LIMITS", "MapTerms", "boundaries", "formula_name", "limit_names"]
+__all__ = ["LIMITS", "boundaries", "formula_name", "limit_names"]
 
 Array = NDArray[np.float64]
 Sum = tuple[Monomial, ...]
@@ -41,41 +39,6 @@ _PART_TEXT = {
     "friction": ("2 xi mu R_w B", r"2\,\xi\mu R_w B"),
     "wear": ("2 tau_w R_w A", r"2\,\tau_w R_w A"),
 }
-
-
-@dataclass(frozen=True, eq=False)
-class MapTerms:
-    """What boundaries are made of: a map's axes, quantities, and the model's answer at its nodes.
-
-    Parameters
-    ----------
-    x, y : MapAxis
-        The axes.
-    quantities : mapping of str to Monomial
-        The scene's quantities in x and y.
-    scene : Scene
-        The scene at the nodes.
-    model : str
-        Name of the force model.
-    force : CuttingForce
-        Its force.
-    shares : mapping of str to ndarray
-        Share of each term [-].
-    """
-
-    x: MapAxis
-    y: MapAxis
-    quantities: Mapping[str, Monomial]
-    scene: Scene
-    model: str
-    force: CuttingForce
-    shares: Mapping[str, Any]
-
-    def contours(self, values: Any, level: float) -> Lines:
-        """Return where values at the nodes have a level."""
-        values = np.asarray(values, dtype=float)
-        whole = np.broadcast_to(values, (self.y.values.size, self.x.values.size))
-        return contours(whole, level, self.x, self.y)
 
 
 def limit_names(limits: object) -> tuple[str, ...]:
@@ -99,9 +62,7 @@ def limit_names(limits: object) -> tuple[str, ...]:
     return names
 
 
-def boundaries(
-    terms: MapTerms, threshold: float, limits: tuple[str, ...], miss: float
-) -> tuple[Boundary, ...]:
+def boundaries(record: MapRecord, limits: tuple[str, ...]) -> tuple[Boundary, ...]:
     """Return every boundary that crosses the map.
 
     Raises
@@ -110,26 +71,26 @@ def boundaries(
         If contours are needed and contourpy is not installed.
     """
     found = [
-        *_equal_terms(terms),
-        *_dominance(terms, threshold),
-        *(_limit(terms, limit, miss) for limit in limits if limit != terms.model),
-        _contact(terms),
+        *_equal_terms(record),
+        *_dominance(record, record.regime.threshold),
+        *(_limit(record, limit, record.miss) for limit in limits if limit != record.model),
+        _contact(record),
     ]
     return tuple(one for one in found if one.lines)
 
 
-def _equal_terms(terms: MapTerms) -> Iterator[Boundary]:
-    sums = _term_sums(terms)
-    text = _texts(terms.model)
-    for one, other in combinations(terms.shares, 2):
+def _equal_terms(record: MapRecord) -> Iterator[Boundary]:
+    sums = _term_sums(record)
+    text = _texts(record.model)
+    for one, other in combinations(record.term_shares, 2):
         lines = None
         if sums is not None:
-            lines = exact_lines((*sums[one], *_times(-1.0, sums[other])), terms.x, terms.y)
+            lines = exact_lines((*sums[one], *_times(-1.0, sums[other])), record.x, record.y)
         exact = lines is not None
         if lines is None:
             with np.errstate(all="ignore"):
-                log_ratio = np.log(terms.shares[one]) - np.log(terms.shares[other])
-            lines = terms.contours(log_ratio, 0.0)
+                log_ratio = np.log(record.term_shares[one]) - np.log(record.term_shares[other])
+            lines = _contours(record, log_ratio, 0.0)
         (left, left_symbol), (right, right_symbol) = text[one], text[other]
         yield Boundary(
             "equal-terms",
@@ -141,18 +102,18 @@ def _equal_terms(terms: MapTerms) -> Iterator[Boundary]:
         )
 
 
-def _dominance(terms: MapTerms, threshold: float) -> Iterator[Boundary]:
-    sums = _term_sums(terms)
-    text = _texts(terms.model)
-    for one in terms.shares:
+def _dominance(record: MapRecord, threshold: float) -> Iterator[Boundary]:
+    sums = _term_sums(record)
+    text = _texts(record.model)
+    for one in record.term_shares:
         lines = None
         if sums is not None:
             rest = [m for name in sums if name != one for m in _times(-threshold, sums[name])]
             own = _times(1.0 - threshold, sums[one])
-            lines = exact_lines((*own, *rest), terms.x, terms.y)
+            lines = exact_lines((*own, *rest), record.x, record.y)
         exact = lines is not None
         if lines is None:
-            lines = terms.contours(terms.shares[one], threshold)
+            lines = _contours(record, record.term_shares[one], threshold)
         plain, symbol = text[one]
         yield Boundary(
             "dominance",
@@ -164,23 +125,23 @@ def _dominance(terms: MapTerms, threshold: float) -> Iterator[Boundary]:
         )
 
 
-def _limit(terms: MapTerms, limit: str, miss: float) -> Boundary:
+def _limit(record: MapRecord, limit: str, miss: float) -> Boundary:
     """Return where a limit is off by a share, above or below."""
-    sums = _force_sum(terms, limit), _force_sum(terms, terms.model)
+    sums = _force_sum(record, limit), _force_sum(record, record.model)
     lines: Lines | None = None
     if None not in sums:
         pieces = [
-            exact_lines(_collected((*sums[0], *_times(-factor, sums[1]))), terms.x, terms.y)  # type: ignore[misc, arg-type]
+            exact_lines(_collected((*sums[0], *_times(-factor, sums[1]))), record.x, record.y)  # type: ignore[misc, arg-type]
             for factor in (1.0 - miss, 1.0 + miss)
         ]
         if None not in pieces:
             lines = tuple(line for piece in pieces for line in piece)  # type: ignore[union-attr]
     exact = lines is not None
     if lines is None:
-        force = cutting_force(terms.scene, limit, extrapolate=True).total
+        force = cutting_force(record.scene, limit, extrapolate=True).total
         with np.errstate(all="ignore"):
-            off = np.divide(force, terms.force.total) - 1.0
-        lines = (*terms.contours(off, -miss), *terms.contours(off, miss))
+            off = np.divide(force, record.force.total) - 1.0
+        lines = (*_contours(record, off, -miss), *_contours(record, off, miss))
     name = formula_name(limit)
     share = f"{100.0 * miss:.3g}"
     equation, symbol = f"{name} is off by {share} %", rf"\mathrm{{{name}}}\ {share}\,\%"
@@ -199,19 +160,19 @@ def formula_name(model: str) -> str:
     return model if form is None else form.equation
 
 
-def _contact(terms: MapTerms) -> Boundary:
+def _contact(record: MapRecord) -> Boundary:
     """Return where the wire begins to touch the crack tip."""
-    touch = touching_toughness(terms.model, terms.scene.stiffening_exponent)
-    of = terms.quantities
+    touch = touching_toughness(record.model, record.scene.stiffening_exponent)
+    of = record.quantities
     toughness = of["toughness"]
     stiffness = of["shear_modulus"] * of["wire_radius"]
     lines = None
     if isinstance(touch, float):
-        lines = exact_lines((toughness, *_times(-touch, (stiffness,))), terms.x, terms.y)
+        lines = exact_lines((toughness, *_times(-touch, (stiffness,))), record.x, record.y)
     exact = lines is not None
     if lines is None:
-        log_g = np.log((toughness * stiffness**-1)(terms.x.values, terms.y.values[:, np.newaxis]))
-        lines = terms.contours(log_g - np.log(touch), 0.0)
+        log_g = np.log((toughness * stiffness**-1)(record.x.values, record.y.values[:, np.newaxis]))
+        lines = _contours(record, log_g - np.log(touch), 0.0)
     own = touch is not TOUCHING_TOUGHNESS
     value = ("g_touch", r"g_{\rm touch}") if own else ("1", "1")
     return Boundary("contact", CONTACTS, f"g = {value[0]}", f"g={value[1]}", exact, lines)
@@ -221,10 +182,10 @@ def _texts(model: str) -> Mapping[str, tuple[str, str]]:
     return _TEXT if model == SPLIT_MODEL else _PART_TEXT
 
 
-def _term_sums(terms: MapTerms) -> dict[str, Sum] | None:
+def _term_sums(record: MapRecord) -> dict[str, Sum] | None:
     """Return each term as a sum of monomials, or None where the model is no such sum."""
-    parts = _part_sums(terms, terms.model)
-    if parts is None or terms.model != SPLIT_MODEL:
+    parts = _part_sums(record, record.model)
+    if parts is None or record.model != SPLIT_MODEL:
         return parts
     of_toughness, of_stiffness = parts["friction"]
     return {
@@ -234,11 +195,11 @@ def _term_sums(terms: MapTerms) -> dict[str, Sum] | None:
     }
 
 
-def _part_sums(terms: MapTerms, model: str) -> dict[str, Sum] | None:
+def _part_sums(record: MapRecord, model: str) -> dict[str, Sum] | None:
     form = FORCE_MODELS.get(model)
     if not isinstance(form, ClosedForm):
         return None
-    of = terms.quantities
+    of = record.quantities
     xi, radius = of["friction_coefficient"], of["wire_radius"]
     return {
         "cleavage": (of["toughness"],),
@@ -250,8 +211,8 @@ def _part_sums(terms: MapTerms, model: str) -> dict[str, Sum] | None:
     }
 
 
-def _force_sum(terms: MapTerms, model: str) -> Sum | None:
-    parts = _part_sums(terms, model)
+def _force_sum(record: MapRecord, model: str) -> Sum | None:
+    parts = _part_sums(record, model)
     return None if parts is None else tuple(one for part in parts.values() for one in part)
 
 
@@ -265,3 +226,11 @@ def _collected(terms: Sum) -> Sum:
     for one in terms:
         factors[one.p, one.q] = factors.get((one.p, one.q), 0.0) + one.factor
     return tuple(Monomial(factor, *powers) for powers, factor in factors.items())
+
+
+def _contours(record: MapRecord, values: Any, level: float) -> Lines:
+    """Return where values at the nodes have a level."""
+    whole = np.broadcast_to(
+        np.asarray(values, dtype=float), (record.y.values.size, record.x.values.size)
+    )
+    return contours(whole, level, record.x, record.y)

@@ -14,6 +14,7 @@ from surrogate.figures import GREY, LARGEST_SHOWN, MEDIUM, SMALL
 from surrogate.map_axes import MapAxis
 from surrogate.map_boundaries import formula_name
 from surrogate.map_points import MapPoints
+from surrogate.map_record import MapRecord
 from surrogate.map_style import (
     ERROR_COLOURS,
     ERROR_LEVELS,
@@ -23,7 +24,6 @@ from surrogate.map_style import (
     SHOWN_UNITS,
     axis_label,
 )
-from surrogate.maps import RegimeMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,7 +44,7 @@ Array = NDArray[np.float64]
 _CONTACT, _HATCH = "#333333", "#909090"
 
 
-def set_up(ax: Axes, made: RegimeMap) -> None:
+def set_up(ax: Axes, made: MapRecord) -> None:
     """Give the axes the map's scales, limits and labels.
 
     Raises
@@ -78,16 +78,16 @@ def _drawable(axis: MapAxis) -> Array:
     return ends
 
 
-def _mesh(made: RegimeMap) -> tuple[Array, Array]:
+def _mesh(made: MapRecord) -> tuple[Array, Array]:
     return _shown(made.x, made.x.values), _shown(made.y, made.y.values)
 
 
-def _whole(made: RegimeMap, values: Any) -> Array:
+def _whole(made: MapRecord, values: Any) -> Array:
     shape = made.y.values.size, made.x.values.size
     return np.array(np.broadcast_to(np.asarray(values, dtype=float), shape))
 
 
-def fill_regions(ax: Axes, made: RegimeMap) -> None:
+def fill_regions(ax: Axes, made: MapRecord) -> None:
     """Fill where a term dominates."""
     for name, share in made.term_shares.items():
         values = _whole(made, share)
@@ -96,7 +96,7 @@ def fill_regions(ax: Axes, made: RegimeMap) -> None:
             ax.contourf(*_mesh(made), values, levels=levels, colors=[FILLS[name]], zorder=0)
 
 
-def fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
+def fill_error(ax: Axes, made: MapRecord, model: str) -> None:
     """Colour the map by another model's error, with a bar of colours."""
     error = 100.0 * np.abs(_whole(made, made.difference(model)))
     filled = ax.contourf(
@@ -112,7 +112,7 @@ def fill_error(ax: Axes, made: RegimeMap, model: str) -> None:
     bar.ax.tick_params(labelsize=SMALL)
 
 
-def hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
+def hatch_outside(ax: Axes, made: MapRecord) -> Iterator[Any]:
     """Hatch where the model does not hold; yield the handle for the legend."""
     outside = 1.0 - _whole(made, made.force.in_domain)
     cells = outside[1:, 1:] * outside[1:, :-1] * outside[:-1, 1:] * outside[:-1, :-1]
@@ -129,7 +129,7 @@ def hatch_outside(ax: Axes, made: RegimeMap) -> Iterator[Any]:
 
 
 def draw_boundaries(
-    ax: Axes, made: RegimeMap, limits: set[str], contact: bool
+    ax: Axes, made: MapRecord, limits: set[str], contact: bool
 ) -> Iterator[tuple[Any, list[Array]]]:
     """Draw the lines; yield one handle for the legend and the lines of each boundary."""
     equal, thin = 0, None
@@ -154,7 +154,7 @@ def draw_boundaries(
         yield _lines(ax, made, one, **style), list(one.lines)
 
 
-def _lines(ax: Axes, made: RegimeMap, one: Boundary, **style: Any) -> Any:
+def _lines(ax: Axes, made: MapRecord, one: Boundary, **style: Any) -> Any:
     handle = None
     for line in one.lines:
         if one.kind == "contact":
@@ -166,7 +166,7 @@ def _lines(ax: Axes, made: RegimeMap, one: Boundary, **style: Any) -> Any:
     return handle
 
 
-def _legend_text(one: Boundary, made: RegimeMap) -> str:
+def _legend_text(one: Boundary, made: MapRecord) -> str:
     if one.kind == "dominance":
         return rf"a term$={made.regime.threshold:.3g}\,F_{{ss}}/T$"
     if one.kind == "limit":
@@ -189,7 +189,7 @@ def _ticks() -> Any:
     return _Ticks(spacing=7.0, length=0.6, angle=90)
 
 
-def _with_indentation_left(made: RegimeMap, line: Array) -> Array:
+def _with_indentation_left(made: MapRecord, line: Array) -> Array:
     """Return the line in the direction that has indentation, larger g, on its left side."""
     middle = len(line) // 2
     (x0, x1), (y0, y1) = (
@@ -205,7 +205,7 @@ def _with_indentation_left(made: RegimeMap, line: Array) -> Array:
 
 
 def draw_points(
-    ax: Axes, made: RegimeMap, points: MapPoints, centre: Array, error: Array, marker: str
+    ax: Axes, made: MapRecord, points: MapPoints, centre: Array, error: Array, marker: str
 ) -> Any:
     """Draw points with bars of one standard error; return the handle for the legend."""
     x, y = _shown(made.x, centre[0]), _shown(made.y, centre[1])

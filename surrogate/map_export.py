@@ -10,19 +10,18 @@ import numpy as np
 from surrogate.errors import WirecutError
 from surrogate.export import write_csv
 from surrogate.map_axes import COORDINATES, MapAxis
+from surrogate.version import __version__
 
 if TYPE_CHECKING:
     import xarray
 
-    from surrogate.maps import RegimeMap
+    from surrogate.map_record import MapRecord
 
 __all__ = ["about_map", "map_dataset", "map_summary", "write_boundaries", "write_map"]
 
 
-def about_map(made: RegimeMap) -> list[str]:
+def about_map(made: MapRecord) -> list[str]:
     """Return what a map is, one line each."""
-    from surrogate import __version__
-
     fixed = ", ".join(
         f"{name} = {value!r} {COORDINATES[name].unit}".strip() for name, value in made.fixed.items()
     )
@@ -34,7 +33,7 @@ def about_map(made: RegimeMap) -> list[str]:
     ]
 
 
-def _columns(made: RegimeMap) -> dict[tuple[str, str], Any]:
+def _columns(made: MapRecord) -> dict[tuple[str, str], Any]:
     """Return every field on the nodes by its name and unit."""
     force, unit = made.force, made.force_unit
     error = force.relative_error
@@ -55,7 +54,7 @@ def _columns(made: RegimeMap) -> dict[tuple[str, str], Any]:
     return {key: np.broadcast_to(values, shape) for key, values in columns.items()}
 
 
-def write_map(made: RegimeMap, file: str | PathLike[str]) -> None:
+def write_map(made: MapRecord, file: str | PathLike[str]) -> None:
     """Write one line a node."""
     axes = {
         (made.x.name, made.x.unit): made.x.values,
@@ -64,7 +63,7 @@ def write_map(made: RegimeMap, file: str | PathLike[str]) -> None:
     write_csv(file, {**axes, **_columns(made)}, about_map(made))
 
 
-def write_boundaries(made: RegimeMap, file: str | PathLike[str]) -> None:
+def write_boundaries(made: MapRecord, file: str | PathLike[str]) -> None:
     """Write one line a point of the boundaries; `line` counts the polylines."""
     lines = [(one, line) for one in made.boundaries for line in one.lines]
     sizes = [len(line) for _, line in lines]
@@ -84,7 +83,7 @@ def write_boundaries(made: RegimeMap, file: str | PathLike[str]) -> None:
     write_csv(file, columns, about_map(made))
 
 
-def map_dataset(made: RegimeMap) -> xarray.Dataset:
+def map_dataset(made: MapRecord) -> xarray.Dataset:
     """Return the fields over both axes, with units; xarray is needed."""
     try:
         import xarray
@@ -104,7 +103,7 @@ def map_dataset(made: RegimeMap) -> xarray.Dataset:
     return xarray.Dataset(fields, coords=axes, attrs={"about": "; ".join(about_map(made))})
 
 
-def map_summary(made: RegimeMap) -> dict[str, Any]:
+def map_summary(made: MapRecord) -> dict[str, Any]:
     """Return a map's regimes and boundaries as numbers and words."""
     regimes = np.unique(made.regime.dominant, return_counts=True)
     total = made.regime.dominant.size  # type: ignore[union-attr]

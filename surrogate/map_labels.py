@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from surrogate.figures import SMALL, legend_above
 from surrogate.label_places import GRID, best_place, best_turned_place, blocked_by_line
 from surrogate.map_axes import MapAxis
+from surrogate.map_record import MapRecord
 from surrogate.map_style import NAMES
-from surrogate.maps import RegimeMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +43,7 @@ def add_legend(ax: Axes, columns: int, handles: list[Any]) -> int:
 
 
 def name_regions(
-    ax: Axes, made: RegimeMap, lines: Sequence[Array], marks: Sequence[Array], coloured: bool
+    ax: Axes, made: MapRecord, lines: Sequence[Array], marks: Sequence[Array], coloured: bool
 ) -> list[str]:
     """Write each region's name where nothing is, upright or along a boundary where it fits only so.
 
@@ -98,7 +98,7 @@ def name_regions(
 
 
 def _place_along(
-    made: RegimeMap, free: NDArray[np.bool_], box: tuple[float, float], window: Any
+    made: MapRecord, free: NDArray[np.bool_], box: tuple[float, float], window: Any
 ) -> tuple[tuple[float, float], float] | None:
     """Return a place along one of the boundaries, and the direction in fractions [degree]."""
     for across, up in _directions(made):
@@ -109,7 +109,7 @@ def _place_along(
     return None
 
 
-def _directions(made: RegimeMap) -> Iterator[tuple[float, float]]:
+def _directions(made: MapRecord) -> Iterator[tuple[float, float]]:
     """Yield the way from end to end of the lines between regions, to the right [fractions]."""
     for one in made.boundaries:
         for line in one.lines if one.kind in ("equal-terms", "dominance") else ():

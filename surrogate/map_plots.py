@@ -29,8 +29,8 @@ from surrogate.map_drawing import (
 )
 from surrogate.map_labels import add_legend, name_regions
 from surrogate.map_points import MapPoints, places
+from surrogate.map_record import MapRecord
 from surrogate.map_style import FILLS, LIMIT_LINES, NAMES, POINT_MARKERS
-from surrogate.maps import RegimeMap
 from surrogate.options import flag, items
 from surrogate.validation import shown
 
@@ -44,7 +44,7 @@ _COLUMNS = {"single": 2, "double": 3}
 
 
 def plot_regime_map(
-    made: RegimeMap,
+    made: MapRecord,
     ax: Axes | None = None,
     points: Sequence[MapPoints] = (),
     *,
@@ -137,7 +137,7 @@ def plot_regime_map(
 
 
 def save_regime_map(
-    made: RegimeMap,
+    made: MapRecord,
     file: str | PathLike[str],
     points: Sequence[MapPoints] = (),
     **options: Any,
@@ -179,7 +179,7 @@ def save_regime_map(
 
 
 def _checked(made: object, limits: object, error_of: object) -> set[str]:
-    if not isinstance(made, RegimeMap):
+    if not isinstance(made, MapRecord):
         raise InputError(
             f"a map must be what regime_map returned, but is {shown(made)} "
             f"({type(made).__name__}); give regime_map(x, y, ranges, fixed, model)."

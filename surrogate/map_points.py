@@ -17,7 +17,7 @@ from surrogate.validation import Quantity, broadcast_shape, shown
 
 if TYPE_CHECKING:
     from surrogate.map_axes import MapAxis
-    from surrogate.maps import RegimeMap
+    from surrogate.map_record import MapRecord
 
 __all__ = ["MapPoints", "places"]
 
@@ -72,7 +72,7 @@ class MapPoints:
         object.__setattr__(self, "std", MappingProxyType(checked))
 
 
-def places(points: MapPoints, made: RegimeMap) -> tuple[Array, Array]:
+def places(points: MapPoints, made: MapRecord) -> tuple[Array, Array]:
     """Return places and standard errors on a map, each of shape (2, points) [units of its axes].
 
     Raises

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from surrogate.boundaries import Boundary
-from surrogate.elementwise import ratio
 from surrogate.errors import InputError
-from surrogate.force import CuttingForce, cutting_force
-from surrogate.map_axes import MapAxis, coordinate, map_axis
-from surrogate.map_boundaries import LIMITS, MapTerms, boundaries, limit_names
-from surrogate.map_scene import Monomial, resolve
+from surrogate.force import cutting_force
+from surrogate.map_axes import coordinate, map_axis
+from surrogate.map_boundaries import LIMITS, boundaries, limit_names
+from surrogate.map_record import MapRecord, scene_of
+from surrogate.map_scene import resolve
 from surrogate.options import mapping
-from surrogate.regimes import DOMINANT_SHARE, Regime, classify, term_shares
-from surrogate.scene import NAMES, Scene, require_scene
+from surrogate.regimes import DOMINANT_SHARE, THRESHOLD, regime_of, term_shares
 from surrogate.validation import SMALLEST, Quantity, one_number, shown
 
 if TYPE_CHECKING:
@@ -35,7 +33,7 @@ _FEWEST_NODES, _MOST_NODES = 3, 4001
 
 
 @dataclass(frozen=True, eq=False)
-class RegimeMap:
+class RegimeMap(MapRecord):
     """A regime map; see `regime_map`. Its arrays have the shape (nodes of y, nodes of x).
 
     Parameters
@@ -79,103 +77,11 @@ class RegimeMap:
     array([0.969, 0.756, 0.237])
     """
 
-    x: MapAxis
-    y: MapAxis
-    fixed: Mapping[str, float]
-    model: str
-    units: tuple[str, ...]
-    scene: Scene
-    force: CuttingForce
-    regime: Regime
-    term_shares: Mapping[str, Array]
-    miss: float
-    boundaries: tuple[Boundary, ...]
-    quantities: Mapping[str, Monomial]
-
-    @property
-    def force_unit(self) -> str:
-        """Unit of the forces: N/m, or products of the quantities that are the map's units."""
-        if not self.units:
-            return "N/m"
-        stress = "mu" if "shear_modulus" in self.units else "Pa"
-        return f"{stress} {'R_w' if 'wire_radius' in self.units else 'm'}"
-
-    @property
-    def cleavage_share(self) -> Array:
-        """Share of the cleavage toughness in the force [-]; nan where the force is 0."""
-        return self._share(self.force.cleavage)
-
-    @property
-    def friction_share(self) -> Array:
-        """Share of friction in the force [-]; nan where the force is 0."""
-        return self._share(self.force.friction)
-
-    @property
-    def wear_share(self) -> Array:
-        """Share of wear in the force [-]; nan where the force is 0."""
-        return self._share(self.force.wear)
-
-    @property
-    def relative_force(self) -> Array:
-        """F_ss/(Gamma_o T) [-]; infinite where the toughness is 0."""
-        with np.errstate(all="ignore"):
-            return ratio(self.force.total, np.asarray(self.scene.toughness))  # type: ignore[no-any-return]
-
-    def _share(self, part: Any) -> Array:
-        with np.errstate(all="ignore"):
-            return ratio(part, np.asarray(self.force.total))  # type: ignore[no-any-return]
-
     def _repr_html_(self) -> str:
         """What notebooks show."""
         from surrogate.notebook import html_of_map
 
         return html_of_map(self)
-
-    def scene_at(self, x: ArrayLike, y: ArrayLike) -> Scene:
-        """Return what is cut at places of the map [units of its axes].
-
-        Raises
-        ------
-        InputError
-            If a place is no admissible value of its coordinate.
-        """
-        places = [
-            axis.coordinate.quantity.checked(value) for axis, value in ((self.x, x), (self.y, y))
-        ]
-        return _scene(self.quantities, *places)
-
-    def locate(self, scene: Scene) -> tuple[Any, Any]:
-        """Return the places x and y of a scene on the map [units of its axes]; nan where none is.
-
-        Only the two coordinates are looked at, not whether the scene has what the map holds fixed.
-
-        Raises
-        ------
-        InputError
-            If `scene` is not a `Scene`.
-        """
-        require_scene(scene)
-        places = []
-        for axis in (self.x, self.y):
-            value: Any = 1.0
-            with np.errstate(all="ignore"):
-                for name, power in axis.coordinate.powers.items():
-                    value = value * np.power(getattr(scene, name), float(power))
-            places.append(value)
-        return places[0], places[1]
-
-    def difference(self, model: str) -> Array:
-        """Return how far another model is from the map's, F/F_map - 1 [-], at each node.
-
-        Raises
-        ------
-        UnknownModelError
-            If there is no such model.
-        DomainError
-            If it has no answer at a node.
-        """
-        other = cutting_force(self.scene, model, extrapolate=True)
-        return relative_difference(other.total, self.force.total)
 
     def to_csv(self, file: str | PathLike[str]) -> None:
         """Write one line a node: coordinates, force, shares and regime, with units in the header.
@@ -212,12 +118,6 @@ class RegimeMap:
         from surrogate.map_export import map_dataset
 
         return map_dataset(self)
-
-
-def relative_difference(one: Any, other: Any) -> Array:
-    """Return one/other - 1; nan where both are 0 or infinite."""
-    with np.errstate(all="ignore"):
-        return np.asarray(np.divide(one, other) - 1.0)
 
 
 def regime_map(
@@ -318,14 +218,12 @@ def regime_map(
     ]
     given = _given(fixed)
     quantities, units = resolve(axes[0].name, axes[1].name, given)
-    scene = _scene(quantities, axes[0].values, axes[1].values[:, np.newaxis])
+    scene = scene_of(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share, wanted = one_number(MISS, miss), limit_names(limits)
     force = cutting_force(scene, model, rtol, extrapolate=True)
-    regime = classify(scene, threshold, model, rtol, extrapolate=True)
+    regime = regime_of(scene, force, one_number(THRESHOLD, threshold), model)
     shares = term_shares(scene, force, model)
-    terms = MapTerms(axes[0], axes[1], quantities, scene, model, force, shares)
-    made = boundaries(terms, regime.threshold, wanted, share)
-    return RegimeMap(
+    plain = RegimeMap(
         axes[0],
         axes[1],
         MappingProxyType(given),
@@ -336,9 +234,10 @@ def regime_map(
         regime,
         MappingProxyType(dict(zip(shares, map(np.asarray, shares.values()), strict=True))),
         share,
-        made,
+        (),
         MappingProxyType(quantities),
     )
+    return replace(plain, boundaries=boundaries(plain, wanted))
 
 
 def _number_of_nodes(nodes: object) -> int:
@@ -374,17 +273,3 @@ def _given(fixed: object) -> dict[str, float]:
             raise InputError(f"{one.name} must be given once, but is fixed twice; drop one.")
         given[one.name] = one_number(one.quantity, value)
     return given
-
-
-def _scene(quantities: Mapping[str, Monomial], x: Any, y: Any) -> Scene:
-    """Return the scene at places of a map; what is solved for is neither 0 nor infinite."""
-    axes = Monomial(1.0, 1, 0), Monomial(1.0, 0, 1)
-    values = {name: quantities[name](x, y) for name in NAMES}
-    for name, one in quantities.items():
-        solved = (one.p or one.q) and one not in axes
-        if solved and not (np.all(np.isfinite(values[name])) and np.all(values[name] > 0.0)):
-            raise InputError(
-                f"{name} must be positive and finite all over the map, but what is given makes it "
-                "leave the range of numbers; narrow the ranges, or begin above 0."
-            )
-    return Scene(**values)

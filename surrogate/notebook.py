@@ -14,10 +14,9 @@ from surrogate.tables import number
 from surrogate.validation import shown
 
 if TYPE_CHECKING:
-    from surrogate.identified import Identification
-    from surrogate.maps import RegimeMap
+    from surrogate.map_record import MapRecord
 
-__all__ = ["html_of_identification", "html_of_map", "html_of_record", "html_table"]
+__all__ = ["html_of_map", "html_of_record", "html_table"]
 
 _MOST_WORDS = 4
 
@@ -56,34 +55,7 @@ def html_of_record(record: Any) -> str:
     return html_table(type(record).__name__, rows)
 
 
-def html_of_identification(fit: Identification) -> str:
-    """Return estimates with intervals, lengths, and everything that is to be said about them."""
-    from surrogate.validation import LARGEST
-
-    def interval(low: float, high: float, scale: float) -> str:
-        ends = number(scale * low), "any" if high >= LARGEST else number(scale * high)
-        return f" ({100.0 * fit.confidence:.3g} %: {ends[0]} to {ends[1]})"
-
-    rows = [
-        ("model", fit.model, ""),
-        (
-            "cleavage toughness",
-            number(fit.toughness) + interval(*fit.toughness_interval, 1.0),
-            "J/m2",
-        ),
-        (
-            "wear strength",
-            number(1e-3 * fit.wear_strength) + interval(*fit.wear_strength_interval, 1e-3),
-            "kPa",
-        ),
-        ("l_w = Gamma_o/tau_w", number(1e6 * fit.wear_length), "um"),
-        *(("warning", warning, "") for warning in fit.warnings),
-        *(("undecided", sentence, "") for sentence in fit.undecided),
-    ]
-    return html_table("Identification", rows)
-
-
-def html_of_map(made: RegimeMap) -> str:
+def html_of_map(made: MapRecord) -> str:
     """Return a map's regimes and boundaries, and its picture where matplotlib is installed."""
     from importlib.util import find_spec
 
@@ -112,7 +84,7 @@ def _pair(axis: Mapping[str, Any]) -> str:
     return f"{number(axis['low'])} to {number(axis['high'])}"
 
 
-def _picture(made: RegimeMap) -> str:
+def _picture(made: MapRecord) -> str:
     from io import StringIO
 
     from surrogate.figures import new_figure, write_svg

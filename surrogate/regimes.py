@@ -22,6 +22,7 @@ __all__ = [
     "PARTS",
     "Regime",
     "classify",
+    "regime_of",
     "term_shares",
     "touching_toughness",
 ]
@@ -151,9 +152,21 @@ def classify(
     share = one_number(THRESHOLD, threshold)
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     split = isinstance(model, str) and model == SPLIT_MODEL
-    terms: Any = (0.0, 0.0, 0.0)
-    if not split:
-        terms = _parts(cutting_force(scene, model, rtol, extrapolate))
+    force = None if split else cutting_force(scene, model, rtol, extrapolate)
+    return regime_of(scene, force, share, model)
+
+
+def regime_of(scene: Scene, force: CuttingForce | None, share: float, model: str) -> Regime:
+    """Return the regime of a scene whose force by the model is known; "eq13" needs none.
+
+    Examples
+    --------
+    >>> scene = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
+    >>> regime_of(scene, cutting_force(scene, "table"), 0.6, "table").dominant
+    'wear'
+    """
+    split = model == SPLIT_MODEL
+    terms: Any = (0.0, 0.0, 0.0) if split or force is None else _parts(force)
     touch = touching_toughness(model, scene.stiffening_exponent)
 
     def codes(mu: Any, gamma: Any, radius: Any, *others: Any) -> tuple[Any, Any]:

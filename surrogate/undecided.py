@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from surrogate.further_wire import FurtherWire
-    from surrogate.identified import Identification
-    from surrogate.profile import Mode, Profile
+from surrogate.further_wire import FurtherWire
+from surrogate.identified import Estimate
+from surrogate.profile import Mode, Profile
 
 __all__ = ["undecided", "wire_in_words"]
 
@@ -18,12 +16,12 @@ VAGUE = 3.0
 """Ratio of an interval's ends from which its quantity counts as undecided."""
 
 
-def undecided(fit: Identification) -> Iterator[str]:
+def undecided(fit: Estimate) -> Iterator[str]:
     """Yield one sentence for each question that the forces leave open.
 
     Parameters
     ----------
-    fit : Identification
+    fit : Estimate
         The identification to look at; without a `profile` there is nothing to say.
 
     Yields
@@ -66,14 +64,14 @@ def wire_in_words(wire: FurtherWire) -> str:
     return f"{sentence}, but no wire in that range tells them apart with a thousand cuts"
 
 
-def _several(fit: Identification, profile: Profile) -> Iterator[str]:
+def _several(fit: Estimate, profile: Profile) -> Iterator[str]:
     admitted = [mode for mode in profile.modes if mode.admitted]
     if len(admitted) > 1:
         listed = "; ".join(_mode_in_words(fit, mode) for mode in admitted)
         yield f"{len(admitted)} materials fit the forces within the confidence asked for: {listed}"
 
 
-def _mode_in_words(fit: Identification, mode: Mode) -> str:
+def _mode_in_words(fit: Estimate, mode: Mode) -> str:
     misfit = "sum of squares" if fit.force_std is None else "chi^2"
     return (
         f"Gamma_o = {mode.toughness:.4g} J/m2 with tau_w = {1e-3 * mode.wear_strength:.4g} kPa "
@@ -81,7 +79,7 @@ def _mode_in_words(fit: Identification, mode: Mode) -> str:
     )
 
 
-def _toughness_ends(fit: Identification, profile: Profile) -> Iterator[str]:
+def _toughness_ends(fit: Estimate, profile: Profile) -> Iterator[str]:
     if not profile.toughness_intervals:
         return
     low, high = fit.toughness_interval
@@ -105,7 +103,7 @@ def _toughness_ends(fit: Identification, profile: Profile) -> Iterator[str]:
         yield f"it is the bound of {high:.4g} J/m2, not the forces, that limits the toughness above"
 
 
-def _wear_ends(fit: Identification, profile: Profile) -> Iterator[str]:
+def _wear_ends(fit: Estimate, profile: Profile) -> Iterator[str]:
     low, high = fit.wear_strength_interval
     if fit.known.wear_strength is not None:
         return
@@ -116,7 +114,7 @@ def _wear_ends(fit: Identification, profile: Profile) -> Iterator[str]:
         yield "the forces set no upper limit to the wear strength"
 
 
-def _wide(fit: Identification) -> Iterator[str]:
+def _wide(fit: Estimate) -> Iterator[str]:
     for name, scale, unit, (low, high) in (
         ("toughness", 1.0, "J/m2", fit.toughness_interval),
         ("wear strength", 1e-3, "kPa", fit.wear_strength_interval),
