@@ -35,7 +35,7 @@ class Preset:
     example: bool = False
 
 
-def _fixed(**values: float) -> Mapping[str, float]:
+def _known(**values: float) -> Mapping[str, float]:
     return MappingProxyType(values)
 
 
@@ -46,14 +46,14 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             "R_w/l_e",
             "R_w/l_w",
             ((1e-4, 1e2), (1e-2, 1e2)),
-            _fixed(friction_coefficient=0.1),
+            _known(friction_coefficient=0.1),
         ),
         "groups": Preset(
             "the groups of the finite-element problem and of its friction, xi = 0.1",
             "g",
             "tau_w/(xi mu)",
             ((1e-2, 1e2), (1e-2, 1e2)),
-            _fixed(friction_coefficient=0.1),
+            _known(friction_coefficient=0.1),
         ),
         "friction": Preset(
             "friction beside toughness for a solid with tau_w = mu/10",
@@ -67,7 +67,7 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             "wire_radius",
             "toughness",
             ((1e-5, 1e-2), (5e-2, 5e1)),
-            _fixed(shear_modulus=685.0, wear_strength=7750.0),
+            _known(shear_modulus=685.0, wear_strength=7750.0),
             example=True,
         ),
     }
