@@ -360,9 +360,9 @@ def _check_files(options: argparse.Namespace) -> None:
     if options.plot and Path(options.plot).suffix.lower() not in _PICTURES:
         raise InputError(f"{options.plot} has no picture's ending; choose .png, .pdf or .svg.")
     if options.plot:
-        from .plots import _require_matplotlib
+        from .plots import require_matplotlib
 
-        _require_matplotlib()
+        require_matplotlib()
 
 
 def _write_json(

@@ -29,15 +29,15 @@ __all__ = ["plot_configuration", "plot_energy_release_rate", "plot_stress_ahead"
 
 Array = NDArray[np.float64]
 
-_MM = 1.0 / 25.4
-SINGLE_COLUMN = 89.0 * _MM
+MM = 1.0 / 25.4
+SINGLE_COLUMN = 89.0 * MM
 """Width of a figure that fills one column of a journal [inch]."""
 
 _SMALL, _MEDIUM = 7.0, 8.0
-_GREY, _WIRE = "#555555", "#c8c8c8"
+GREY, _WIRE = "#555555", "#c8c8c8"
 #: Okabe and Ito's colours, which the colour-blind tell apart, without the yellow.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 #: Pressure peak in the picture of a configuration [R_w]: the normals stay inside the wire.
 _LONGEST_NORMAL = 0.6
 _MOST_NORMALS = 28
@@ -91,8 +91,8 @@ def plot_configuration(body: Body, state: State, ax: Axes | None = None) -> Axes
     >>> ax.get_xlabel()
     '$x/R_w$ [-]'
     """
-    ax = ax or _new_axes(0.98)
-    _require_matplotlib()
+    ax = ax or new_axes(0.98)
+    require_matplotlib()
     from matplotlib.collections import LineCollection, PolyCollection
     from matplotlib.colors import LogNorm
     from matplotlib.patches import Circle
@@ -120,14 +120,14 @@ def plot_configuration(body: Body, state: State, ax: Axes | None = None) -> Axes
         ax.add_collection(filled, autolim=False)
         edges = LineCollection(drawn * mirror, colors="white", linewidths=0.15, alpha=0.6)
         ax.add_collection(edges, autolim=False)
-    ax.add_patch(Circle(tuple(state.centre), 1.0, fc=_WIRE, ec=_GREY, lw=0.5, zorder=3))
+    ax.add_patch(Circle(tuple(state.centre), 1.0, fc=_WIRE, ec=GREY, lw=0.5, zorder=3))
     peak = _draw_pressure(ax, body, state)
     if peak > 0:
         ax.set_title(rf"longest normal: $p = {peak:.3g}\,\mu$", fontsize=_SMALL, pad=3)
     ax.set_xlim(low[0], high[0])
     ax.set_ylim(low[1], high[1])
     ax.set_aspect("equal")
-    _label(ax, "$x/R_w$ [-]", "$y/R_w$ [-]")
+    label_axes(ax, "$x/R_w$ [-]", "$y/R_w$ [-]")
     _stretch_bar(ax, filled)
     return ax
 
@@ -251,17 +251,17 @@ def plot_energy_release_rate(records: Sequence[Record], ax: Axes | None = None) 
     'log'
     """
     reached = _reached(records)
-    ax = ax or _new_axes(0.8)
-    _require_matplotlib()
+    ax = ax or new_axes(0.8)
+    require_matplotlib()
     largest = max(5.0, 1.5 * max(record.distance for record in reached))
     distance = np.geomspace(1.0, largest, 200)
     eq5 = far_field_energy_release_rate(distance)
-    ax.plot(distance, eq5, "--", color=_GREY, lw=0.9, label=r"Eq. (5), $(R_w/\delta)^2$")
+    ax.plot(distance, eq5, "--", color=GREY, lw=0.9, label=r"Eq. (5), $(R_w/\delta)^2$")
     wedge = far_field_wedge(distance).energy_release_rate
     ax.plot(distance, wedge, ":", color="black", lw=1.1, label="linear wedge limit")
     for i, alpha in enumerate(sorted({record.alpha for record in reached})):
         mine = sorted((r for r in reached if r.alpha == alpha), key=lambda r: r.distance)
-        colour, marker = _COLOURS[i % len(_COLOURS)], _MARKERS[i % len(_MARKERS)]
+        colour, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
         points = np.array([(r.distance, r.energy_release_rate) for r in mine])
         sure = np.array([r.outcome is Outcome.CONVERGED for r in mine])
         style: dict[str, Any] = {"ls": "none", "ms": 4.0, "mec": colour, "mew": 0.8, "zorder": 4}
@@ -272,8 +272,8 @@ def plot_energy_release_rate(records: Sequence[Record], ax: Axes | None = None) 
     ax.set_yscale("log")
     ax.set_xlim(0.93, largest)
     _plain_ticks(ax, largest)
-    _label(ax, r"distance to the tip $\delta/R_w$ [-]", r"$J/(\mu R_w)$ [-]")
-    _legend(ax, 2)
+    label_axes(ax, r"distance to the tip $\delta/R_w$ [-]", r"$J/(\mu R_w)$ [-]")
+    add_legend(ax, 2)
     return ax
 
 
@@ -318,14 +318,14 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     '$\\\\sigma_{22}/\\\\mu$ [-]'
     """
     reached = _reached(records)
-    ax = ax or _new_axes(0.8)
-    _require_matplotlib()
+    ax = ax or new_axes(0.8)
+    require_matplotlib()
     reached.sort(key=lambda r: (r.alpha, r.distance))
     chosen = np.linspace(0, len(reached) - 1, min(len(reached), _MOST_CURVES)).round()
     reached = [reached[int(i)] for i in chosen]
     several = len({record.alpha for record in reached}) > 1
     for i, record in enumerate(reached):
-        colour, g = _COLOURS[i % len(_COLOURS)], record.energy_release_rate
+        colour, g = COLOURS[i % len(COLOURS)], record.energy_release_rate
         start = _NOTCH_REACH * float(record.mesh.get("notch_radius", 0.0))
         shown = (record.ahead_reference > start) & (record.ahead_stress > 0)
         r, stress = record.ahead_reference[shown], record.ahead_stress[shown]
@@ -337,13 +337,13 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
         if record.alpha == 2.0:
             near = r[r <= g]  # finite strain rules up to about J/mu
             ax.plot(near, g / (np.pi * near), "-.", color=colour, lw=0.7)
-    ax.plot([], [], "--", color=_GREY, lw=0.7, label=r"linear, $\sqrt{2J\mu/(\pi r)}$")
+    ax.plot([], [], "--", color=GREY, lw=0.7, label=r"linear, $\sqrt{2J\mu/(\pi r)}$")
     if any(record.alpha == 2.0 for record in reached):
-        ax.plot([], [], "-.", color=_GREY, lw=0.7, label=r"neo-Hookean, $J/(\pi r)$")
+        ax.plot([], [], "-.", color=GREY, lw=0.7, label=r"neo-Hookean, $J/(\pi r)$")
     ax.set_xscale("log")
     ax.set_yscale("log")
-    _label(ax, "distance ahead of the tip $r/R_w$ [-]", r"$\sigma_{22}/\mu$ [-]")
-    _legend(ax, 1 if several else 2)
+    label_axes(ax, "distance ahead of the tip $r/R_w$ [-]", r"$\sigma_{22}/\mu$ [-]")
+    add_legend(ax, 1 if several else 2)
     return ax
 
 
@@ -357,23 +357,23 @@ def _reached(records: Sequence[Record]) -> list[Record]:
     return reached
 
 
-def _require_matplotlib() -> None:
+def require_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         raise MissingExtraError(
             "drawing needs matplotlib; install it with: pip install 'wirecut[train]'"
         )
 
 
-def _new_axes(ratio: float) -> Axes:
+def new_axes(ratio: float) -> Axes:
     """Return the axes of a new single-column figure of a height relative to its width."""
-    _require_matplotlib()
+    require_matplotlib()
     import matplotlib.pyplot as plt
 
     size = (SINGLE_COLUMN, ratio * SINGLE_COLUMN)
     return plt.subplots(figsize=size, layout="constrained")[1]
 
 
-def _label(ax: Axes, x: str, y: str) -> None:
+def label_axes(ax: Axes, x: str, y: str) -> None:
     ax.set_xlabel(x, fontsize=_MEDIUM)
     ax.set_ylabel(y, fontsize=_MEDIUM)
     ax.tick_params(which="both", labelsize=_SMALL)
@@ -389,7 +389,7 @@ def _plain_ticks(ax: Axes, largest: float) -> None:
     ax.xaxis.set_minor_formatter(NullFormatter())
 
 
-def _legend(ax: Axes, columns: int) -> None:
+def add_legend(ax: Axes, columns: int) -> None:
     """Put the legend above the axes, where no data can be."""
     ax.spines[["top", "right"]].set_visible(False)
     ax.legend(

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import plots
 from .errors import InputError
 from .markdown import markdown_table
+from .plots import COLOURS, GREY, MARKERS, add_legend, label_axes, new_axes, require_matplotlib
 from .software import software
 from .verify import STUDIES, Finding, Measure, Scope, Solved, StudyResult
 
@@ -331,7 +331,7 @@ def _draw(folder: Path, result: StudyResult) -> list[Path]:
     ]
     if result.facts:
         panels.append(functools.partial(plot_truncation, result))
-    plots._require_matplotlib()
+    require_matplotlib()
     rows = math.ceil(len(panels) / 2)
     size = (_DOUBLE_COLUMN, 0.33 * _DOUBLE_COLUMN * rows + 0.7)
     figure = Figure(figsize=size, layout="constrained")
@@ -378,7 +378,7 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     >>> ax.get_ylabel()
     '$|\\\\Delta B|/B$ [-]'
     """
-    ax = ax or plots._new_axes(0.8)
+    ax = ax or new_axes(0.8)
     rows = [(f, m) for f in result.findings if f.solved for m in f.measures if m.name == name]
     alphas = list(dict.fromkeys(one.alpha for one, _ in rows))
     variants = list(dict.fromkeys(one.variant for one, _ in rows))
@@ -419,15 +419,15 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     for x, colour in lost:
         edge = ax.get_xaxis_transform()
         ax.plot([x], [1.0], "x", color=colour, ms=4.0, transform=edge, clip_on=False, zorder=4)
-    ax.plot([], [], "x", color=plots._GREY, ms=4.0, label="not reached") if lost else None
+    ax.plot([], [], "x", color=GREY, ms=4.0, label="not reached") if lost else None
     for i, alpha in enumerate(alphas):
-        colour = plots._GREY if by_variant else _colour(i)
+        colour = GREY if by_variant else _colour(i)
         ax.plot([], [], _marker(i), color=colour, ms=3.5, label=rf"$\alpha$ = {alpha:g}")
     for i, variant in enumerate(variants if by_variant else []):
         ax.plot([], [], "-", color=_colour(i), lw=1.5, label=variant.replace("_", " "))
     x_label = r"stiffening exponent $\alpha$ [-]" if by_alpha else "$g = J/(\\mu R_w)$ [-]"
-    plots._label(ax, x_label, f"{_SYMBOLS.get(name, name)} [-]")
-    plots._legend(ax, 2 if by_variant else 3)
+    label_axes(ax, x_label, f"{_SYMBOLS.get(name, name)} [-]")
+    add_legend(ax, 2 if by_variant else 3)
     return ax
 
 
@@ -445,7 +445,7 @@ def _draw_bounds(ax: Axes, rows: Sequence[tuple[Finding, Measure]], by_alpha: bo
     names = {one.variant for one, _ in held}
     some = len(names) == 1 and len({one.variant for one, _ in rows}) > 1 and "" not in names
     label = f"bound, {names.pop()}".replace("_", " ") if some else "bound"
-    style: dict[str, Any] = {"color": plots._GREY, "lw": 0.8, "label": label}
+    style: dict[str, Any] = {"color": GREY, "lw": 0.8, "label": label}
     if len(set(y)) == 1:
         ax.axhline(y[0], ls="--", **style)
     else:
@@ -453,13 +453,13 @@ def _draw_bounds(ax: Axes, rows: Sequence[tuple[Finding, Measure]], by_alpha: bo
 
 
 def _colour(number: int) -> str:
-    return plots._COLOURS[number % len(plots._COLOURS)]
+    return COLOURS[number % len(COLOURS)]
 
 
 def _marker(number: int) -> str:
     """Return a marker; beyond those that there are, they meet other colours."""
-    count = len(plots._MARKERS)
-    return plots._MARKERS[(number + number // count) % count]
+    count = len(MARKERS)
+    return MARKERS[(number + number // count) % count]
 
 
 def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
@@ -480,7 +480,7 @@ def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
         The axes, both scales logarithmic.
     """
-    ax = ax or plots._new_axes(0.8)
+    ax = ax or new_axes(0.8)
     rows = [one for one in result.findings if one.data and math.isfinite(one.measures[0].value)]
 
     def law(one: Finding) -> float:
@@ -494,10 +494,10 @@ def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
         ax.plot([law(one) for one in mine], y, _marker(i), **style)
     ends = np.array([f(law(one) for one in rows) for f in (min, max)])
     factor = result.facts["factor c, median"]
-    style = {"color": plots._GREY, "lw": 0.9, "label": rf"law, $c$ = {factor:.2g}"}
+    style = {"color": GREY, "lw": 0.9, "label": rf"law, $c$ = {factor:.2g}"}
     ax.plot(ends, factor * ends, "--", **style)
     ax.set_xscale("log")
     ax.set_yscale("log")
-    plots._label(ax, r"$\sqrt{g R_w/L} - \sqrt{g R_w/L_0}$ [-]", f"{_SYMBOLS['|dB|/B']} [-]")
-    plots._legend(ax, 2)
+    label_axes(ax, r"$\sqrt{g R_w/L} - \sqrt{g R_w/L_0}$ [-]", f"{_SYMBOLS['|dB|/B']} [-]")
+    add_legend(ax, 2)
     return ax

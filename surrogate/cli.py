@@ -12,15 +12,25 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate import cli_identify, cli_map, identification_report, report
+from surrogate import cli_map
+from surrogate.cli_identify import add_fact_options, facts
 from surrogate.command import OneLineParser, complete, run_command
 from surrogate.data import Material, read_material, read_measurements
 from surrogate.errors import InputError
 from surrogate.force import cutting_force
 from surrogate.identification import identify
+from surrogate.identification_report import identification_record, identification_text
 from surrogate.paths import model_file
 from surrogate.regimes import DOMINANT_SHARE, classify
-from surrogate.report import Record
+from surrogate.report import (
+    Record,
+    force_record,
+    force_text,
+    models_record,
+    models_text,
+    regime_record,
+    regime_text,
+)
 from surrogate.scene import Scene
 from surrogate.units import (
     ENERGY_DENSITY,
@@ -301,7 +311,7 @@ def _add_identify_options(command: argparse.ArgumentParser) -> None:
         metavar="P",
         help="probability of the intervals (default 0.95)",
     )
-    cli_identify.add_fact_options(command, _quantity)
+    add_fact_options(command, _quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
     add("--csv", metavar="TABLE", help="write the fitted line and its band")
 
@@ -321,14 +331,14 @@ def _scene(options: argparse.Namespace) -> Scene:
 def _force(options: argparse.Namespace) -> None:
     scene = _scene(options)
     force = cutting_force(scene, options.model, options.rtol, options.extrapolate)
-    _print(options, report.force_record(scene, force), report.force_text)
+    _print(options, force_record(scene, force), force_text)
 
 
 def _regime(options: argparse.Namespace) -> None:
     scene = _scene(options)
     regime = classify(scene, options.threshold, options.model, options.rtol, options.extrapolate)
-    record = report.regime_record(scene, regime, options.model)
-    _print(options, record, report.regime_text)
+    record = regime_record(scene, regime, options.model)
+    _print(options, record, regime_text)
 
 
 def _map(options: argparse.Namespace) -> None:
@@ -336,7 +346,7 @@ def _map(options: argparse.Namespace) -> None:
 
 
 def _models(options: argparse.Namespace) -> None:
-    _print(options, report.models_record(), report.models_text)
+    _print(options, models_record(), models_text)
 
 
 def _doctor(options: argparse.Namespace) -> int:
@@ -363,7 +373,7 @@ def _identify(options: argparse.Namespace) -> None:
         model=options.model,
         rtol=options.rtol,
         confidence=options.confidence,
-        **cli_identify.facts(options),
+        **facts(options),
     )
     origin = "read from the published line" if options.example else "measured"
     if options.plot:
@@ -380,8 +390,8 @@ def _identify(options: argparse.Namespace) -> None:
 
         write_curve(fit, options.csv)
     record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
-    record |= identification_report.identification_record(fit, material)
-    _print(options, record, identification_report.identification_text)
+    record |= identification_record(fit, material)
+    _print(options, record, identification_text)
 
 
 def _material(options: argparse.Namespace) -> Material:

@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from surrogate import power_friction
 from surrogate.conditions import (
     MUCH_GREATER,
     Condition,
@@ -32,6 +31,12 @@ from surrogate.conditions import (
 from surrogate.elementwise import product, quotient, ratio, where
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS, TABLE_1, TABULATED_STIFFENING
 from surrogate.errors import UnknownModelError
+from surrogate.power_friction import (
+    power_friction,
+    power_friction_slopes,
+    power_load,
+    power_load_slopes,
+)
 from surrogate.validation import STIFFENING_EXPONENT, Quantity, shown
 
 __all__ = [
@@ -212,23 +217,23 @@ class PowerLaw(ForceModel):
         return 0.0
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
-        return power_friction.load(g, alpha)
+        return power_load(g, alpha)
 
     def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         return 0.0, 0.0
 
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return power_friction.load_slopes(g, alpha)
+        return power_load_slopes(g, alpha)
 
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return friction xi Gamma_o g^(n - 1) and no wear; no friction where Gamma_o = 0."""
-        return power_friction.friction(mu, gamma, radius, xi, alpha), 0.0
+        return power_friction(mu, gamma, radius, xi, alpha), 0.0
 
     def gradient(
         self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
     ) -> tuple[Any, ...]:
         """Return those of Gamma_o + xi Gamma_o^n (mu R_w)^(1 - n); nan where it has none."""
-        in_mu, in_gamma, in_radius, in_xi, in_alpha = power_friction.friction_slopes(
+        in_mu, in_gamma, in_radius, in_xi, in_alpha = power_friction_slopes(
             mu, gamma, radius, xi, alpha
         )
         return in_mu, 1.0 + in_gamma, in_radius, in_xi, 0.0, in_alpha

@@ -13,21 +13,21 @@ import numpy as np
 from surrogate.elementwise import exp, log, product, quotient, scaled, where, where_normal
 from surrogate.equations import power_law, table_1_exponent, table_1_slope
 
-__all__ = ["friction", "friction_slopes", "load", "load_slopes"]
+__all__ = ["power_friction", "power_friction_slopes", "power_load", "power_load_slopes"]
 
 
-def load(g: Any, alpha: Any) -> Any:
+def power_load(g: Any, alpha: Any) -> Any:
     """Return B = g^n/2 [-].
 
     Examples
     --------
-    >>> print(f"{load(20.0, 2.0):.4f}")
+    >>> print(f"{power_load(20.0, 2.0):.4f}")
     17.1469
     """
     return power_law(g, 0.5, table_1_exponent(alpha))
 
 
-def load_slopes(g: Any, alpha: Any) -> tuple[Any, Any]:
+def power_load_slopes(g: Any, alpha: Any) -> tuple[Any, Any]:
     """Return dB/dg and dB/dalpha, infinite in g where g = 0 and n < 1."""
     n = table_1_exponent(alpha)
     with np.errstate(all="ignore"):  # of 0 and of numbers whose power overflows
@@ -37,19 +37,19 @@ def load_slopes(g: Any, alpha: Any) -> tuple[Any, Any]:
     return in_g, where(g == 0.0, 0.0, in_alpha)
 
 
-def friction(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> Any:
+def power_friction(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> Any:
     """Return xi Gamma_o g^(n - 1) [N/m]; none where Gamma_o = 0.
 
     Examples
     --------
-    >>> print(f"{friction(1.0, 20.0, 1.0, 0.1, 2.0):.4f}")
+    >>> print(f"{power_friction(1.0, 20.0, 1.0, 0.1, 2.0):.4f}")
     3.4294
     """
     power = _power(_log_g(mu, gamma, radius), table_1_exponent(alpha) - 1.0)
     return where((xi == 0.0) | (gamma == 0.0), 0.0, product(xi, gamma, power))
 
 
-def friction_slopes(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> tuple[Any, ...]:
+def power_friction_slopes(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> tuple[Any, ...]:
     """Return the derivatives of the friction by mu, Gamma_o, R_w, xi and alpha.
 
     Where a quantity is 0 they are those of Gamma_o^n (mu R_w)^(1 - n), nan where that has none.
@@ -74,7 +74,7 @@ def friction_slopes(mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> tu
         by(mu, radius),
         where(xi == 0.0, 0.0, product(n, xi, power)),
         by(radius, mu),
-        friction(mu, gamma, radius, 1.0, alpha),
+        power_friction(mu, gamma, radius, 1.0, alpha),
         where((xi == 0.0) | (gamma == 0.0) | (power == 0.0), 0.0, bend),
     )
 
