@@ -13,15 +13,14 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from surrogate.command import OneLineParser, run_command
-
-from .errors import InputError
+from surrogate.basics.command import OneLineParser, run_command
+from surrogate.errors import InputError
 
 if TYPE_CHECKING:
-    from .body import Body
-    from .cut import Settings
-    from .equilibrium import State
-    from .record import Record
+    from fe_training.mechanics.body import Body
+    from fe_training.solver.cut import Settings
+    from fe_training.solver.equilibrium import State
+    from fe_training.solver.record import Record
 
 _NAME = "python -m fe_training"
 _RESOLUTIONS = ("coarse", "standard", "fine")
@@ -196,10 +195,10 @@ def _count(text: str) -> int:
 
 
 def _verify(options: argparse.Namespace) -> int:
-    from .solve import ALPHA_RANGE
-    from .verify import cases_of, full_scope, judged, quick_scope
-    from .verify_report import summary_table, write_report
-    from .verify_run import estimated_seconds, read_solved, solve_cases
+    from fe_training.solver.solve import ALPHA_RANGE
+    from fe_training.verification.report import summary_table, write_report
+    from fe_training.verification.run import estimated_seconds, read_solved, solve_cases
+    from fe_training.verification.studies import cases_of, full_scope, judged, quick_scope
 
     scope = quick_scope() if options.quick else full_scope()
     if options.alpha:
@@ -233,7 +232,7 @@ def _verify(options: argparse.Namespace) -> int:
 def _solve(options: argparse.Namespace) -> int:
     _check_files(options)
     _check_ranges(options)
-    from .resolutions import RESOLUTIONS
+    from fe_training.solver.cut import RESOLUTIONS
 
     settings = RESOLUTIONS[options.resolution]
     records = _records(options, settings)
@@ -258,7 +257,7 @@ def _wanted(options: argparse.Namespace) -> list[tuple[str, float]]:
 
 def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
     """Solve, with a bar of progress for several values of g."""
-    from .solve import solve, solve_path
+    from fe_training.solver.solve import solve, solve_path
 
     if options.g is None:
         record = solve(
@@ -340,7 +339,7 @@ def _remark(record: Record, wanted: tuple[str, float]) -> None:
 
 def _check_ranges(options: argparse.Namespace) -> None:
     """Refuse numbers out of range before a bar of progress begins."""
-    from .solve import ALPHA_RANGE, G_RANGE
+    from fe_training.solver.solve import ALPHA_RANGE, G_RANGE
 
     values = [("alpha", options.alpha, *ALPHA_RANGE)]
     values += [("g", value, *G_RANGE) for value in options.g or []]
@@ -360,7 +359,7 @@ def _check_files(options: argparse.Namespace) -> None:
     if options.plot and Path(options.plot).suffix.lower() not in _PICTURES:
         raise InputError(f"{options.plot} has no picture's ending; choose .png, .pdf or .svg.")
     if options.plot:
-        from .plots import require_matplotlib
+        from fe_training.figure_style import require_matplotlib
 
         require_matplotlib()
 
@@ -413,9 +412,9 @@ def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
         return
     from matplotlib.figure import Figure
 
-    from .path import PathStalledError
-    from .plots import (
-        SINGLE_COLUMN,
+    from fe_training.figure_style import SINGLE_COLUMN
+    from fe_training.solver.path import PathStalledError
+    from fe_training.solver.pictures import (
         plot_configuration,
         plot_energy_release_rate,
         plot_stress_ahead,
@@ -437,11 +436,11 @@ def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
 
 def _again(record: Record, settings: Settings) -> tuple[Body, State]:
     """Solve the configuration of a record once more, for its displacements."""
-    from .cut import Cut
-    from .equilibrium import Control
-    from .mesh import MeshSpec
-    from .path import Steps
-    from .solve import indentation_states
+    from fe_training.mechanics.mesh import MeshSpec
+    from fe_training.solver.cut import Cut
+    from fe_training.solver.equilibrium import Control
+    from fe_training.solver.path import Steps
+    from fe_training.solver.solve import indentation_states
 
     cut = Cut(record.alpha, MeshSpec(**record.mesh), settings)
     if cut.spec.contact_start > 0:

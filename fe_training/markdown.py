@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from .errors import InputError
+from surrogate.errors import InputError
 
 __all__ = ["markdown_table", "plain", "update_page"]
 

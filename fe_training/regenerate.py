@@ -10,23 +10,28 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from surrogate.command import OneLineParser, run_command
+from surrogate.basics.command import OneLineParser, run_command
+from surrogate.basics.files import model_file, models_folder
 from surrogate.errors import InputError
-from surrogate.paths import model_file, models_folder
 
 if TYPE_CHECKING:
-    from .campaign import Plan, Workers
-    from .dataset import Campaign
-    from .design import CampaignDesign, Configuration
-    from .store import Store
+    from fe_training.campaign.dataset import Campaign
+    from fe_training.campaign.design import CampaignDesign, Configuration
+    from fe_training.campaign.run import Plan
+    from fe_training.campaign.store import Store
+    from fe_training.campaign.workers import Workers
 
 __all__ = ["main"]
 
 _NAME = "regen-surrogate"
+
 #: Packages of the extra `train`.
 _EXTRA = {"scipy", "sklearn", "skfem", "joblib", "h5py", "tqdm", "threadpoolctl", "tomli"}
+
 _FULL, _QUICK, _OFF_GRID = "campaign.toml", "campaign-quick.toml", "off-grid.toml"
+
 _DATA, _OFF_GRID_DATA = "campaign.h5", "off-grid.h5"
+
 _CHECKED_ROWS = 5
 
 _DESCRIPTION = """\
@@ -150,9 +155,10 @@ def _count(text: str) -> int:
 def _regenerate(options: argparse.Namespace) -> int:
     if (options.backend == "dask") != (options.scheduler is not None):
         raise InputError("--backend dask and --scheduler ADDRESS need each other; give both.")
-    from .campaign import Workers, plan
-    from .design import read_design
-    from .store import Store
+    from fe_training.campaign.design import read_design
+    from fe_training.campaign.run import plan
+    from fe_training.campaign.store import Store
+    from fe_training.campaign.workers import Workers
 
     workers = Workers(options.jobs, options.scheduler)
     name = "campaign-quick" if options.quick else "off-grid" if options.off_grid else "campaign"
@@ -214,8 +220,8 @@ def _chosen(design: CampaignDesign, only: Sequence[str]) -> list[Configuration]:
 
 
 def _refill(design: CampaignDesign, store: Store, file: str) -> None:
-    from .dataset import load_campaign
-    from .refill import refill
+    from fe_training.campaign.dataset import load_campaign
+    from fe_training.campaign.refill import refill
 
     _say(f"    {refill(store, design, load_campaign(file))} rows taken from {file}")
 
@@ -227,7 +233,7 @@ def _campaign(
     workers: Workers,
     retry: bool,
 ) -> None:
-    from .campaign import plan, run_campaign
+    from fe_training.campaign.run import plan, run_campaign
 
     todo = plan(design, store, chosen, retry)
     _say(f"1/4 campaign: {len(todo.waiting)} of {len(chosen)} configurations to solve")
@@ -240,7 +246,7 @@ def _campaign(
 
 
 def _data_set(design: CampaignDesign, store: Store, file: Path) -> Campaign:
-    from .dataset import load_campaign, write_campaign
+    from fe_training.campaign.dataset import load_campaign, write_campaign
 
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -277,14 +283,14 @@ def _fit(data: Campaign, out: Path, single_mesh: bool) -> None:
 
 
 def _fit_only(out: Path, single_mesh: bool) -> None:
-    from .dataset import load_campaign
+    from fe_training.campaign.dataset import load_campaign
 
     _make(load_campaign(out / _DATA), out, single_mesh)
 
 
 def _make(data: Campaign, out: Path, single_mesh: bool) -> None:
-    from .dataset import load_campaign
-    from .surrogates import make_surrogates
+    from fe_training.campaign.dataset import load_campaign
+    from fe_training.validation.surrogates import make_surrogates
 
     others = out / _OFF_GRID_DATA
     if not others.is_file():
@@ -314,8 +320,8 @@ def _hours(seconds: float) -> str:
 
 def _check(file: Path, number: int, seed: int, workers: Workers) -> int:
     """Solve a random sample of the rows again and compare; return the exit code."""
-    from .check import check_rows
-    from .dataset import load_campaign
+    from fe_training.campaign.check import check_rows
+    from fe_training.campaign.dataset import load_campaign
 
     with tempfile.TemporaryDirectory() as folder:
         checks = check_rows(load_campaign(file), number, seed, workers, folder)

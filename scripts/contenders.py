@@ -14,19 +14,19 @@ from typing import Any
 
 import numpy as np
 
-from fe_training.dataset import load_campaign
-from fe_training.fit_points import FitPoints, points_of
-from fe_training.left_out import left_out_of_process
-from fe_training.validate import (
+from fe_training.campaign.dataset import load_campaign
+from fe_training.fitting.points import FitPoints, points_of
+from fe_training.validation.left_out import left_out_of_process
+from fe_training.validation.model_errors import (
     Errors,
     contact_errors,
     finite_element_errors,
     force_errors,
     summary,
 )
-from surrogate.fitted import Fitted
-from surrogate.process_model import ProcessModel
-from surrogate.quantities import QUANTITIES
+from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.process import ProcessModel
+from surrogate.contact.shipped import Fitted
 
 OFF_GRID = "off-grid.h5"
 #: Without points off the grid, every third alpha is left out, but not the ends.
@@ -117,7 +117,7 @@ def scikit_learn(gp: ProcessModel, points: FitPoints) -> Contender:
 
 @dataclass(frozen=True)
 class Regressor:
-    """A regressor of scikit-learn in the place of `surrogate.gaussian_process`."""
+    """A regressor of scikit-learn in the place of `surrogate.contact.process`."""
 
     regressor: Any
     mean: float
@@ -186,7 +186,7 @@ def smt_kriging(points: FitPoints) -> Contender:
 
 def shipped_errors(fitted: Fitted, points: Split) -> dict[str, dict[str, Any]]:
     """Return the errors of A, B and delta of the shipped models at the judged points."""
-    from surrogate.force_models import FORCE_MODELS
+    from surrogate.contact.closed_forms import FORCE_MODELS
 
     closed = {name: FORCE_MODELS[name] for name in ("eq13", "eq9")}
     found = {

@@ -10,9 +10,18 @@ from typing import Any
 import numpy as np
 
 from fe_training.markdown import markdown_table
-from surrogate.costs import BULK, COSTS_SCHEMA, ONE
-from surrogate.figures import BLUE, GREY, MEDIUM, RED, SMALL, new_figure, save_figure
-from surrogate.force_models import FITTED_NAMES, FORCE_MODELS
+from surrogate.basics.figures import (
+    BLUE,
+    GREY,
+    MEDIUM,
+    RED,
+    SMALL,
+    new_figure,
+    save_figure,
+)
+from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.choosing.catalogue import BULK, COSTS_SCHEMA, ONE
+from surrogate.contact.closed_forms import FORCE_MODELS
 
 FIGURE = "tradeoff"
 REFERENCE, ENGINE = "plain Eq. (13)", "finite elements"

@@ -13,14 +13,32 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from surrogate.errors import AccuracyError, DomainError, InputError, UnknownModelError, WirecutError
+from surrogate.errors import (
+    AccuracyError,
+    DomainError,
+    InputError,
+    UnknownModelError,
+    WirecutError,
+)
 from surrogate.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from surrogate.catalogue import ModelInfo, models
-    from surrogate.contact import ContactFunctions, contact_functions, energy_release_rate
-    from surrogate.data import Material, Measurements, read_material, read_measurements
-    from surrogate.design import Design, design_radii
+    from surrogate.choosing.catalogue import ModelInfo, models
+    from surrogate.contact.closed_forms import FORCE_MODELS
+    from surrogate.cutting.contact_functions import (
+        ContactFunctions,
+        contact_functions,
+        energy_release_rate,
+    )
+    from surrogate.cutting.force import CuttingForce, cutting_force, dissipative_force
+    from surrogate.cutting.gradient import ForceGradient, force_gradient
+    from surrogate.cutting.regimes import Regime, classify
+    from surrogate.cutting.transition_radius import (
+        fracto_cohesive_transition_radius,
+        transition_radius,
+        wear_transition_radius,
+    )
+    from surrogate.cutting.uncertainty import UncertainForce, propagate
     from surrogate.equations import (
         far_field_energy_release_rate,
         friction_free_relative_force,
@@ -32,21 +50,14 @@ if TYPE_CHECKING:
         power_law_exponent,
         relative_force,
     )
-    from surrogate.force import CuttingForce, cutting_force, dissipative_force
-    from surrogate.force_models import FORCE_MODELS
-    from surrogate.gradient import ForceGradient, force_gradient
-    from surrogate.identification import Identification, identify
-    from surrogate.map_plots import plot_regime_map
-    from surrogate.map_points import MapPoints
-    from surrogate.maps import RegimeMap, regime_map
-    from surrogate.plots import plot_identification
-    from surrogate.propagation import UncertainForce, propagate
-    from surrogate.radii import (
-        fracto_cohesive_transition_radius,
-        transition_radius,
-        wear_transition_radius,
-    )
-    from surrogate.regimes import Regime, classify
+    from surrogate.identification.experiment_design import Design, design_radii
+    from surrogate.identification.figure import plot_identification
+    from surrogate.identification.fit import Identification, identify
+    from surrogate.maps.figure import plot_regime_map
+    from surrogate.maps.make import RegimeMap, regime_map
+    from surrogate.maps.points import MapPoints
+    from surrogate.reading.material import Material, read_material
+    from surrogate.reading.measurements import Measurements, read_measurements
     from surrogate.scene import Scene
 
 __all__ = [
@@ -100,24 +111,27 @@ __all__ = [
 
 # Loaded at first use, so that nobody waits for what is not needed.
 _MODULES = {
-    "catalogue": "ModelInfo models",
-    "contact": "ContactFunctions contact_functions energy_release_rate",
-    "data": "Material Measurements read_material read_measurements",
-    "design": "Design design_radii",
-    "equations": "far_field_energy_release_rate friction_free_relative_force general_force "
-    "high_toughness_force low_toughness_dissipation low_toughness_force power_law_dissipation "
-    "power_law_exponent relative_force",
-    "force": "CuttingForce cutting_force dissipative_force",
-    "force_models": "FORCE_MODELS",
-    "gradient": "ForceGradient force_gradient",
-    "identification": "Identification identify",
-    "map_plots": "plot_regime_map",
-    "map_points": "MapPoints",
-    "maps": "RegimeMap regime_map",
-    "plots": "plot_identification",
-    "propagation": "UncertainForce propagate",
-    "radii": "fracto_cohesive_transition_radius transition_radius wear_transition_radius",
-    "regimes": "Regime classify",
+    "choosing.catalogue": "ModelInfo models",
+    "contact.closed_forms": "FORCE_MODELS",
+    "cutting.contact_functions": "ContactFunctions contact_functions energy_release_rate",
+    "cutting.force": "CuttingForce cutting_force dissipative_force",
+    "cutting.gradient": "ForceGradient force_gradient",
+    "cutting.regimes": "Regime classify",
+    "cutting.transition_radius": "fracto_cohesive_transition_radius transition_radius "
+    "wear_transition_radius",
+    "cutting.uncertainty": "UncertainForce propagate",
+    "equations": "far_field_energy_release_rate friction_free_relative_force "
+    "general_force high_toughness_force low_toughness_dissipation "
+    "low_toughness_force power_law_dissipation power_law_exponent "
+    "relative_force",
+    "identification.experiment_design": "Design design_radii",
+    "identification.figure": "plot_identification",
+    "identification.fit": "Identification identify",
+    "maps.figure": "plot_regime_map",
+    "maps.make": "RegimeMap regime_map",
+    "maps.points": "MapPoints",
+    "reading.material": "Material read_material",
+    "reading.measurements": "Measurements read_measurements",
     "scene": "Scene",
 }
 _HOME = {name: module for module, names in _MODULES.items() for name in names.split()}

@@ -18,7 +18,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surrogate.elementwise import (
+from surrogate.basics.checks import (
+    FRICTION_COEFFICIENT,
+    INFINITY,
+    SHEAR_MODULUS,
+    SMALLEST,
+    TOUGHNESS,
+    WEAR_STRENGTH,
+    WIRE_RADIUS,
+    FloatOrArray,
+    Quantity,
+)
+from surrogate.basics.elementwise import (
     all_normal,
     dense,
     evaluate,
@@ -30,17 +41,6 @@ from surrogate.elementwise import (
     where_normal,
 )
 from surrogate.errors import DomainError
-from surrogate.validation import (
-    FRICTION_COEFFICIENT,
-    INFINITY,
-    SHEAR_MODULUS,
-    SMALLEST,
-    TOUGHNESS,
-    WEAR_STRENGTH,
-    WIRE_RADIUS,
-    FloatOrArray,
-    Quantity,
-)
 
 __all__ = [
     "far_field_energy_release_rate",
@@ -65,15 +65,19 @@ RELATIVE_DISTANCE = Quantity(
     upper=INFINITY,
     error=DomainError,
 )
+
 DIMENSIONLESS_TOUGHNESS = Quantity(
     "g", "", "give Gamma_o/(mu R_w), or cut with cutting_force where mu R_w is 0 and g infinite"
 )
+
 RELATIVE_WEAR_STRENGTH = Quantity(
     "relative_wear_strength", "", "give tau_w/mu, or 0 where wear is to be neglected"
 )
+
 EXPONENT = Quantity(
     "exponent", "", "give the exponent n of Table 1, see power_law_exponent", lower=SMALLEST
 )
+
 TABULATED_STIFFENING = Quantity(
     "stiffening_exponent",
     "",
@@ -82,6 +86,7 @@ TABULATED_STIFFENING = Quantity(
     upper=max(TABLE_1),
     error=DomainError,
 )
+
 ELASTO_COHESIVE_LENGTH = Quantity(
     "elasto_cohesive_length",
     "m",
@@ -89,6 +94,7 @@ ELASTO_COHESIVE_LENGTH = Quantity(
     lower=SMALLEST,
     upper=INFINITY,
 )
+
 WEAR_LENGTH = Quantity(
     "wear_length", "m", "give l_w = Gamma_o/tau_w in metres", lower=SMALLEST, upper=INFINITY
 )
@@ -477,8 +483,6 @@ def friction_free_relative_force(wire_radius: ArrayLike, wear_length: ArrayLike)
     """
     return evaluate_checked(_friction_free, (WIRE_RADIUS, WEAR_LENGTH), (wire_radius, wear_length))
 
-
-# The kernels, which take validated floats or blocks.
 
 _SCENE = (SHEAR_MODULUS, TOUGHNESS, WIRE_RADIUS, FRICTION_COEFFICIENT, WEAR_STRENGTH)
 

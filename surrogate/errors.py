@@ -1,6 +1,15 @@
 """The errors that this library raises on purpose; catch `WirecutError` for all of them."""
 
-__all__ = ["AccuracyError", "DomainError", "InputError", "UnknownModelError", "WirecutError"]
+from __future__ import annotations
+
+__all__ = [
+    "AccuracyError",
+    "DomainError",
+    "InputError",
+    "MissingExtraError",
+    "UnknownModelError",
+    "WirecutError",
+]
 
 
 class WirecutError(Exception):
@@ -21,3 +30,7 @@ class UnknownModelError(InputError):
 
 class AccuracyError(InputError):
     """An accuracy that no model offers; the message names the best one and its error."""
+
+
+class MissingExtraError(WirecutError, ImportError):
+    """An optional dependency is needed that is not installed."""

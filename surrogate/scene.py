@@ -6,10 +6,7 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from surrogate.elementwise import apply, quotient, ratio
-from surrogate.errors import InputError
-from surrogate.records import Record
-from surrogate.validation import (
+from surrogate.basics.checks import (
     FRICTION_COEFFICIENT,
     SHEAR_MODULUS,
     STIFFENING_EXPONENT,
@@ -23,6 +20,9 @@ from surrogate.validation import (
     defined,
     shown,
 )
+from surrogate.basics.elementwise import apply, quotient, ratio
+from surrogate.basics.records import Record
+from surrogate.errors import InputError
 
 __all__ = ["Scene", "require_scene"]
 
@@ -34,6 +34,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     WEAR_STRENGTH,
     STIFFENING_EXPONENT,
 )
+
 NAMES = tuple(quantity.name for quantity in QUANTITIES)
 
 

@@ -7,11 +7,11 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-from surrogate import force_models
-from surrogate.elementwise import quotient, where
+from surrogate.basics.checks import STIFFENING_EXPONENT, Quantity
+from surrogate.basics.elementwise import quotient, where
+from surrogate.choosing import by_name
+from surrogate.contact.base import ForceModel
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
-from surrogate.force_models import ForceModel
-from surrogate.validation import STIFFENING_EXPONENT, Quantity
 
 
 def plain(function):
@@ -130,8 +130,8 @@ def register(monkeypatch):
     """Return a function that makes a model known by its name for one test."""
 
     def add(model):
-        known = {**force_models.FORCE_MODELS, model.name: model}
-        monkeypatch.setattr(force_models, "FORCE_MODELS", MappingProxyType(known))
+        known = {**by_name.FORCE_MODELS, model.name: model}
+        monkeypatch.setattr(by_name, "FORCE_MODELS", MappingProxyType(known))
         return model
 
     return add

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from surrogate import Material, Scene, cutting_force, identify
-from surrogate.alternatives import alternatives_record, alternatives_text
+from surrogate.cli.alternatives import alternatives_record, alternatives_text
 
 RADII = np.array([0.1e-3, 0.2e-3, 0.3e-3, 0.4e-3, 0.5e-3])
 GEL = Material(shear_modulus=3e4, pure_shear_toughness=5.0, work_of_fracture=7e3)

@@ -7,7 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from surrogate.archive import read_archive
+from surrogate.basics.files import read_archive
 
 
 def member(header):

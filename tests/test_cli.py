@@ -12,9 +12,9 @@ from dataclasses import asdict
 import pytest
 
 from surrogate import FORCE_MODELS, Scene, __version__, classify, cutting_force, models
-from surrogate.cli import main
-from surrogate.force_models import FITTED_NAMES
-from surrogate.paths import model_file
+from surrogate.basics.files import model_file
+from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.cli.main import main
 
 COMMANDS = ["force", "identify", "regime", "models"]
 SCENE = "--shear-modulus 685Pa --toughness 1.6J/m2 --wear-strength 7.75kPa"
@@ -229,7 +229,7 @@ def test_bad_input_ends_in_one_line_and_code_2(command, words, capsys, tmp_path,
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_a_reader_that_leaves_early_meets_no_traceback(arguments, unbuffered):
     process = subprocess.Popen(
-        [sys.executable, "-m", "surrogate.cli", *arguments.split()],
+        [sys.executable, "-m", "surrogate.cli.main", *arguments.split()],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         env={**os.environ, "PYTHONUNBUFFERED": unbuffered},

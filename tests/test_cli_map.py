@@ -6,8 +6,8 @@ import shlex
 import pytest
 
 from surrogate import regime_map
-from surrogate.cli import main
-from surrogate.map_presets import PRESETS
+from surrogate.cli.main import main
+from surrogate.cli.map import PRESETS
 
 
 def run(command):

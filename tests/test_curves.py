@@ -8,8 +8,8 @@ import pytest
 
 import surrogate
 from surrogate import InputError, WirecutError
-from surrogate.cli import main
-from surrogate.curves import curve_dataset, write_curve, write_profile
+from surrogate.cli.main import main
+from surrogate.identification.curves import curve_dataset, write_curve, write_profile
 
 identify = partial(surrogate.identify, model="eq13")
 

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from surrogate.data import COLUMNS, PROPERTIES, Material, read_material, read_measurements
+from surrogate.basics.files import model_file
 from surrogate.errors import InputError
-from surrogate.paths import model_file
-from surrogate.units import LENGTH, NUMBER, STRESS, parse_quantity
+from surrogate.reading.material import PROPERTIES, Material, read_material
+from surrogate.reading.measurements import COLUMNS, read_measurements
+from surrogate.reading.units import LENGTH, NUMBER, STRESS, parse_quantity
 
 HEADER = "wire_radius_mm,force_per_thickness_N_per_m\n"
 in_tmp_path = settings(

@@ -8,8 +8,8 @@ import pytest
 
 import surrogate
 from surrogate import Scene
-from surrogate.design import design_radii
 from surrogate.errors import InputError
+from surrogate.identification.experiment_design import design_radii
 
 identify = partial(surrogate.identify, model="eq13")
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import surrogate
-from surrogate.cli import main
-from surrogate.force_models import AUTO, FITTED_NAMES
+from surrogate.choosing.by_name import AUTO, FITTED_NAMES
+from surrogate.cli.main import main
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = {path.name: path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("docs/*.md"))}
@@ -150,7 +150,7 @@ def helper(words):
 def test_the_pages_on_models_and_coordinates_name_what_there_is():
     table = re.findall(r"^\| `([\w-]+)` \|", PAGES["models.md"], flags=re.MULTILINE)
     assert set(table) == {*surrogate.FORCE_MODELS, *FITTED_NAMES, AUTO}
-    from surrogate.map_axes import coordinate
+    from surrogate.maps.axes import coordinate
 
     rows = re.findall(r"^\| (`.*?) \| in m|^\| (`.*?) \|", PAGES["maps.md"], flags=re.MULTILINE)
     names = re.findall(r"`([^`]+)`", " ".join(a or b for a, b in rows))

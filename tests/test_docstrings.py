@@ -25,7 +25,7 @@ FUNCTIONS = [name for name in DOCUMENTED if inspect.isfunction(PUBLIC[name])]
 EQUATIONS = [
     name
     for name in FUNCTIONS
-    if PUBLIC[name].__module__ in ("surrogate.equations", "surrogate.radii")
+    if PUBLIC[name].__module__ in ("surrogate.equations", "surrogate.cutting.transition_radius")
 ]
 
 
@@ -101,7 +101,7 @@ def test_every_equation_of_the_paper_is_there():
 def modules():
     """Return the modules of both packages; what a missing extra keeps from loading is left out."""
     for package in (surrogate, fe_training):
-        for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             if not found.name.endswith("__main__"):
                 try:
                     yield importlib.import_module(found.name)

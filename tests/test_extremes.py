@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 import surrogate
-from surrogate import InputError, Scene, elementwise
+from surrogate import InputError, Scene
+from surrogate.basics import elementwise
 
 SCENE = {
     "shear_modulus": 685.0,

@@ -6,7 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surrogate import FORCE_MODELS, DomainError, InputError, Scene, cutting_force, force_gradient
+from surrogate import (
+    FORCE_MODELS,
+    DomainError,
+    InputError,
+    Scene,
+    cutting_force,
+    force_gradient,
+)
 from surrogate.scene import NAMES
 
 SCENE = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 3.0)

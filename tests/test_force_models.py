@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surrogate.force_models import FORCE_MODELS
+from surrogate.contact.closed_forms import FORCE_MODELS
 
 G = np.array([1e-3, 0.07, 0.9, 1.1, 13.0, 400.0])
 ALPHAS = [2.5, 3.0, 4.7, 5.2, 7.4, 8.9]

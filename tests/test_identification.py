@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 import surrogate
 from surrogate import Scene
-from surrogate.data import read_measurements
+from surrogate.basics.files import model_file
 from surrogate.errors import InputError
-from surrogate.least_squares import solve_least_squares
-from surrogate.paths import model_file
+from surrogate.identification.line_fit import solve_least_squares
+from surrogate.reading.measurements import read_measurements
 
 identify = partial(surrogate.identify, model="eq13")
 cutting_force = partial(surrogate.cutting_force, model="eq13")

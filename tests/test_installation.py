@@ -9,9 +9,9 @@ import sys
 import pytest
 
 from surrogate import __version__
-from surrogate.cli import main
-from surrogate.installation import PACKAGES, check_installation, version_text
-from surrogate.paths import models_folder
+from surrogate.basics.files import models_folder
+from surrogate.cli.doctor import PACKAGES, check_installation, version_text
+from surrogate.cli.main import main
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def copied_models(tmp_path, monkeypatch):
     """A copy of the shipped files that may be spoilt."""
     folder = tmp_path / "models"
     shutil.copytree(models_folder(), folder)
-    monkeypatch.setattr("surrogate.installation.models_folder", lambda: folder)
+    monkeypatch.setattr("surrogate.cli.doctor.models_folder", lambda: folder)
     return folder
 
 
@@ -78,7 +78,7 @@ class _Wrong:
 
 
 def test_a_missing_package_is_named_with_its_extra(monkeypatch):
-    monkeypatch.setattr("surrogate.installation.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.cli.doctor.find_spec", lambda name: None)
     checks = {check.subject: check for check in check_installation()}
     assert checks["matplotlib"].outcome == "absent"
     assert "pip install 'wirecut[plot]'" in checks["matplotlib"].detail
@@ -99,6 +99,6 @@ def test_the_shell_completes(line, answers, tmp_path):
         "COMP_LINE": line,
         "COMP_POINT": str(len(line)),
     }
-    command = [sys.executable, "-m", "surrogate.cli"]
+    command = [sys.executable, "-m", "surrogate.cli.main"]
     subprocess.run(command, env=environment, check=True, capture_output=True)
     assert {answer.strip() for answer in out.read_text().split("\n")} == answers

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from surrogate import InputError, Scene, UnknownModelError, WirecutError, regime_map
-from surrogate.label_places import GRID, best_place, best_turned_place, blocked_by_line
-from surrogate.map_plots import plot_regime_map, save_regime_map
-from surrogate.map_points import MapPoints, places
-from surrogate.map_style import ERROR_COLOURS, FILLS, NAMES
-from surrogate.regimes import DOMINANCES, PARTS
+from surrogate.cutting.regimes import DOMINANCES, PARTS
+from surrogate.maps.drawing import ERROR_COLOURS, FILLS
+from surrogate.maps.figure import plot_regime_map, save_regime_map
+from surrogate.maps.labels import GRID, NAMES, best_place, best_turned_place, blocked_by_line
+from surrogate.maps.points import MapPoints, places
 
 matplotlib = pytest.importorskip("matplotlib")
 Figure = pytest.importorskip("matplotlib.figure").Figure
@@ -291,7 +291,7 @@ def test_what_cannot_be_drawn_is_refused():
 
 
 def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
-    monkeypatch.setattr("surrogate.figures.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.basics.figures.find_spec", lambda name: None)
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         save_regime_map(gel(), tmp_path / "map.png")
 

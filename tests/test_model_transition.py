@@ -13,9 +13,9 @@ from surrogate import (
     force_gradient,
     transition_radius,
 )
+from surrogate.basics.checks import Quantity
+from surrogate.basics.roots import narrowed
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
-from surrogate.narrowing import narrowed
-from surrogate.validation import Quantity
 
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 3.0)
 

@@ -9,7 +9,7 @@ import pytest
 
 import surrogate
 from surrogate import Scene, regime_map
-from surrogate.notebook import html_table
+from surrogate.basics.records import html_table
 
 identify = partial(surrogate.identify, model="eq13")
 cutting_force = partial(surrogate.cutting_force, model="eq13")

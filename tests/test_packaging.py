@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PROBE = """
 import surrogate
 from surrogate import identify, read_measurements
-from surrogate.paths import model_file
+from surrogate.basics.files import model_file
 cuts = read_measurements(model_file("paam-wire-cutting.csv"))
 print(surrogate.__file__)
 print(model_file("paam-wire-cutting.csv"))

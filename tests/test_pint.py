@@ -16,8 +16,8 @@ from surrogate import (
     identify,
     regime_map,
 )
-from surrogate.curves import write_curve
-from surrogate.map_points import places
+from surrogate.identification.curves import write_curve
+from surrogate.maps.points import places
 
 pint = pytest.importorskip("pint")
 u = pint.UnitRegistry()

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import surrogate
-from surrogate import plausibility, read_material, read_measurements
-from surrogate.paths import model_file
-from surrogate.plausibility import Plausible, doubts
+from surrogate import read_material, read_measurements
+from surrogate.basics.files import model_file
+from surrogate.reading import plausibility
+from surrogate.reading.plausibility import Plausible, doubts
 
 identify = partial(surrogate.identify, model="eq13")
 

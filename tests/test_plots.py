@@ -8,7 +8,7 @@ import pytest
 import surrogate
 from surrogate import plot_identification
 from surrogate.errors import InputError, WirecutError
-from surrogate.plots import SINGLE_COLUMN, save_identification
+from surrogate.identification.figure import SINGLE_COLUMN, save_identification
 
 identify = partial(surrogate.identify, model="eq13")
 
@@ -86,7 +86,7 @@ def test_what_cannot_be_drawn_is_refused_before_drawing():
 
 
 def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
-    monkeypatch.setattr("surrogate.figures.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.basics.figures.find_spec", lambda name: None)
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         save_identification(identify(RADIUS, RISING, 685.0), tmp_path / "fit.png")
 

@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 
 import surrogate
 from surrogate import DomainError, InputError, Scene, cutting_force
+from surrogate.basics.checks import Quantity
+from surrogate.choosing.by_name import force_model
+from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
-from surrogate.force_models import FORCE_MODELS, ClosedForm, force_model
-from surrogate.known import Known
-from surrogate.misfit import Misfit
-from surrogate.validation import Quantity
+from surrogate.identification.inputs import Known
+from surrogate.identification.misfit import Misfit
 
 identify = partial(surrogate.identify, model="eq13")
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import surrogate
-from surrogate.cli import main
+from surrogate.cli.main import main
 from surrogate.errors import InputError
-from surrogate.profile_plot import plot_profile
+from surrogate.identification.figure import plot_profile
 
 identify = partial(surrogate.identify, model="eq13")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import surrogate
-from surrogate.cli import main
+from surrogate.cli.main import main
 
 README = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)

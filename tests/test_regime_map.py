@@ -15,11 +15,11 @@ from surrogate import (
     cutting_force,
     transition_radius,
 )
-from surrogate.boundaries import contours, exact_lines
-from surrogate.map_axes import COORDINATES, map_axis
-from surrogate.map_scene import Monomial
-from surrogate.maps import regime_map
-from surrogate.regimes import DOMINANCES, PARTS, term_shares
+from surrogate.cutting.regimes import DOMINANCES, PARTS, term_shares
+from surrogate.maps.axes import COORDINATES, map_axis
+from surrogate.maps.lines import contours, exact_lines
+from surrogate.maps.make import regime_map
+from surrogate.maps.scenes import Monomial
 
 GEL = {"shear_modulus": 685.0, "wear_strength": 7750.0, "friction_coefficient": 0.1}
 LOG = ("log", "log")
@@ -290,7 +290,7 @@ def test_extreme_but_sound_ranges():
 
 
 def test_contours_without_contourpy_name_the_remedy(monkeypatch):
-    monkeypatch.setattr("surrogate.boundaries.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.maps.lines.find_spec", lambda name: None)
     assert make("gel").boundaries
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         make("gel", model="eq9")

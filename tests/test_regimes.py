@@ -7,7 +7,7 @@ import pytest
 
 import surrogate
 from surrogate import InputError, Scene, cutting_force
-from surrogate.regimes import CONTACTS, DOMINANCES, PARTS
+from surrogate.cutting.regimes import CONTACTS, DOMINANCES, PARTS
 
 classify = partial(surrogate.classify, model="eq13")
 transition_radius = partial(surrogate.transition_radius, model="eq13")

@@ -7,18 +7,19 @@ from pathlib import Path
 
 import pytest
 
-import surrogate.costs
+import surrogate.choosing.catalogue
 from surrogate import InputError, models
-from surrogate.choice import available
-from surrogate.costs import COSTS_FILE, COSTS_SCHEMA, by_cost, read_costs
-from surrogate.force_models import FITTED_NAMES, FORCE_MODELS, force_model
+from surrogate.choosing.auto import available
+from surrogate.choosing.by_name import FITTED_NAMES, force_model
+from surrogate.choosing.catalogue import COSTS_FILE, COSTS_SCHEMA, by_cost, read_costs
+from surrogate.contact.closed_forms import FORCE_MODELS
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
 @pytest.fixture
 def costs_file(tmp_path, monkeypatch):
-    monkeypatch.setattr(surrogate.costs, "models_folder", lambda: tmp_path)
+    monkeypatch.setattr(surrogate.choosing.catalogue, "models_folder", lambda: tmp_path)
     return tmp_path / COSTS_FILE
 
 
@@ -46,7 +47,7 @@ def test_models_without_a_cost_are_last(costs_file):
     known = [force_model(name) for name in ("eq9", "eq13", "low-toughness")]
     assert [model.name for model in by_cost(known)] == ["eq9", "eq13", "low-toughness"]
     costs_file.write_text(written(**{"low-toughness": 1.0, "eq13": 2.0}))
-    surrogate.costs._read.cache_clear()
+    surrogate.choosing.catalogue._read.cache_clear()
     assert [model.name for model in by_cost(known)] == ["low-toughness", "eq13", "eq9"]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from fe_training.design import read_design
+from fe_training.campaign.design import read_design
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))  # for `fake_engine`, here and in worker processes

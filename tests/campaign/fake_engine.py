@@ -11,10 +11,11 @@ import time
 
 import numpy as np
 
-from fe_training.campaign import Workers, plan, run_campaign
-from fe_training.design import read_design
-from fe_training.record import Outcome, Record
-from fe_training.store import Store
+from fe_training.campaign.design import read_design
+from fe_training.campaign.run import plan, run_campaign
+from fe_training.campaign.store import Store
+from fe_training.campaign.workers import Workers
+from fe_training.solver.record import Outcome, Record
 
 
 def record(alpha, g, sectors=24, **changed):

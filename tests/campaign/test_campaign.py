@@ -11,12 +11,13 @@ from pathlib import Path
 import pytest
 from fake_engine import record, run, solve_path
 
-from fe_training import campaign
-from fe_training.campaign import Workers, plan
-from fe_training.design import STRATEGIES
-from fe_training.errors import InputError, MissingExtraError
-from fe_training.record import Outcome, Record
-from fe_training.store import Store
+from fe_training.campaign import run as campaign
+from fe_training.campaign.design import STRATEGIES
+from fe_training.campaign.run import plan
+from fe_training.campaign.store import Store
+from fe_training.campaign.workers import Workers
+from fe_training.solver.record import Outcome, Record
+from surrogate.errors import InputError, MissingExtraError
 
 
 def wait_until(condition, seconds=60.0):
@@ -195,9 +196,9 @@ DIE = """
 import os, signal, sys
 sys.path.insert(0, sys.argv[3])
 from fake_engine import run
-from fe_training.campaign import Workers
-from fe_training.design import read_design
-from fe_training.errors import WirecutError
+from fe_training.campaign.workers import Workers
+from fe_training.campaign.design import read_design
+from surrogate.errors import WirecutError
 
 def die(*_):
     os.kill(os.getpid(), signal.SIGKILL)
@@ -291,6 +292,6 @@ def test_a_scheduler_that_does_not_answer_is_named(small, tmp_path, monkeypatch)
 
 
 def test_without_dask_the_extra_is_named(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(campaign, "find_spec", lambda name: None)
+    monkeypatch.setattr("fe_training.campaign.workers.find_spec", lambda name: None)
     with pytest.raises(MissingExtraError, match=r"wirecut\[cluster\]"):
         run(small, tmp_path, Workers(scheduler="tcp://127.0.0.1:1"))

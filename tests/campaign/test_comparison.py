@@ -7,16 +7,28 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fe_training import comparison_tables as tables
-from fe_training.comparison import eq13_error, fit_power, local_exponent, reached_from
-from fe_training.curve import Curve
-from fe_training.errors import InputError
-from fe_training.specimen import Case, Result, add_result, cases, read_results
-from fe_training.specimen_tables import block_table, evidence, size_table
-from fe_training.table_1 import over_lower_end
+from fe_training.paper import tables as tables
+from fe_training.paper.curve import Curve
+from fe_training.paper.power_laws import (
+    eq13_error,
+    fit_power,
+    local_exponent,
+    over_lower_end,
+    reached_from,
+)
+from fe_training.paper.specimen import (
+    Case,
+    Result,
+    add_result,
+    block_table,
+    cases,
+    evidence,
+    read_results,
+    size_table,
+)
 from surrogate import Scene, cutting_force
-from surrogate.fitted_file import checksum_line
-from surrogate.paths import model_file
+from surrogate.basics.files import checksum_line, model_file
+from surrogate.errors import InputError
 
 
 def test_a_power_law_is_found_with_and_without_its_prefactor():

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from fake_engine import record, run
 
-from fe_training import dataset
-from fe_training.columns import POINT_COLUMNS, PROFILES, ROW_COLUMNS
-from fe_training.dataset import (
+from fe_training.campaign import dataset
+from fe_training.campaign.columns import POINT_COLUMNS, PROFILES, ROW_COLUMNS
+from fe_training.campaign.dataset import (
     PROFILE_POINTS,
     dissipative_force_table,
     load_campaign,
     write_campaign,
 )
-from fe_training.errors import InputError, MissingExtraError
-from fe_training.record import Outcome, Record
+from fe_training.solver.record import Outcome, Record
+from surrogate.errors import InputError, MissingExtraError
 
 
 @pytest.fixture

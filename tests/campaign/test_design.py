@@ -6,10 +6,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from fe_training.cut import Settings
-from fe_training.design import STRATEGIES, CampaignDesign, read_design
-from fe_training.errors import InputError
-from surrogate.paths import model_file
+from fe_training.campaign.design import STRATEGIES, CampaignDesign, read_design
+from fe_training.solver.cut import Settings
+from surrogate.basics.files import model_file
+from surrogate.errors import InputError
 
 from .conftest import SMALL
 

@@ -13,12 +13,10 @@ import numpy as np
 import pytest
 from fake_engine import run
 
-from fe_training.comparison_figures import contact_figure, eq13_figure
-from fe_training.curve import Curve
-from fe_training.dataset import load_campaign, write_campaign
-from fe_training.design import read_design
-from fe_training.errors import InputError
-from fe_training.paper_figures import (
+from fe_training.campaign.dataset import load_campaign, write_campaign
+from fe_training.campaign.design import read_design
+from fe_training.paper.curve import Curve
+from fe_training.paper.figures import (
     RATIOS,
     dissipation_figure,
     energy_release_figure,
@@ -26,6 +24,8 @@ from fe_training.paper_figures import (
     stress_figure,
     stress_records,
 )
+from fe_training.paper.own_figures import contact_figure, eq13_figure
+from surrogate.errors import InputError
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FITTED = ("1c", "map", "misfit")
@@ -151,13 +151,13 @@ def test_without_the_campaign_it_says_so_in_one_line(tmp_path):
 
 
 def test_everything_with_fitted_models(data_file, script, tmp_path, monkeypatch, capsys):
-    import surrogate.fitted
-    from fe_training.fit import fit, write_fitted
+    import surrogate.contact.shipped
+    from fe_training.fitting.fit import fit, write_fitted
 
     points = runpy.run_path(str(ROOT / "tests" / "fit" / "made_up.py"))["points"]
     (tmp_path / "models").mkdir()
     fitted = write_fitted(tmp_path / "models", fit(points(), {"origin": "made up"}))
-    monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: fitted.parent)
+    monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted.parent)
     out, page, pictures = tmp_path / "paper", tmp_path / "page.md", tmp_path / "pictures"
     page.write_text("\n".join(f"<!-- {n}: begin -->\nold\n<!-- {n}: end -->" for n in PARTS))
     options = ["--data", data_file, "--out", out, "--page", page, "--figures", pictures]

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from fake_engine import run
 
-from fe_training.dataset import load_campaign, write_campaign
-from fe_training.errors import InputError
-from fe_training.record import Outcome
-from fe_training.refill import refill, rows_of
-from fe_training.store import Store
+from fe_training.campaign.dataset import load_campaign, write_campaign
+from fe_training.campaign.refill import refill, rows_of
+from fe_training.campaign.store import Store
+from fe_training.solver.record import Outcome
+from surrogate.errors import InputError
 
 
 @pytest.fixture

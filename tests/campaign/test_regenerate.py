@@ -13,17 +13,17 @@ import numpy as np
 import pytest
 from fake_engine import record, run, solve_path
 
-from fe_training import campaign as running
-from fe_training import check as checking
 from fe_training import regenerate
-from fe_training.campaign import Workers
-from fe_training.check import check_rows
-from fe_training.dataset import load_campaign, write_campaign
-from fe_training.design import read_design
-from fe_training.record import Outcome, Record
+from fe_training.campaign import check as checking
+from fe_training.campaign import run as running
+from fe_training.campaign.check import check_rows
+from fe_training.campaign.dataset import load_campaign, write_campaign
+from fe_training.campaign.design import read_design
+from fe_training.campaign.store import Store
+from fe_training.campaign.workers import Workers
 from fe_training.regenerate import main
-from fe_training.store import Store
-from surrogate.paths import model_file
+from fe_training.solver.record import Outcome, Record
+from surrogate.basics.files import model_file
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 

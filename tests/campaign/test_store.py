@@ -8,11 +8,17 @@ import numpy as np
 import pytest
 from fake_engine import record, run
 
-from fe_training import store as storing
-from fe_training.design import Configuration, read_design
-from fe_training.errors import InputError
-from fe_training.record import Outcome, Record
-from fe_training.store import DamagedRowError, Row, Store, decode_row, encode_row
+from fe_training.campaign import store as storing
+from fe_training.campaign.design import Configuration, read_design
+from fe_training.campaign.store import (
+    DamagedRowError,
+    Row,
+    Store,
+    decode_row,
+    encode_row,
+)
+from fe_training.solver.record import Outcome, Record
+from surrogate.errors import InputError
 
 from .conftest import SMALL
 
@@ -117,8 +123,8 @@ def test_a_damaged_design_is_refused(small, tmp_path):
 
 HOLD = """
 import sys
-from fe_training.design import read_design
-from fe_training.store import Store
+from fe_training.campaign.design import read_design
+from fe_training.campaign.store import Store
 with Store(sys.argv[2]).opened(read_design(sys.argv[1])):
     print("open", flush=True)
     sys.stdin.read()

@@ -6,10 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from fe_training.body import Body
-from fe_training.equilibrium import Control, NewtonOutcome, State, equilibrate, undeformed
-from fe_training.mesh import MeshSpec, crack_mesh
-from fe_training.solvers import make_solver
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver.equilibrium import (
+    Control,
+    NewtonOutcome,
+    State,
+    equilibrate,
+    undeformed,
+)
+from fe_training.solver.linear_solvers import make_solver
 
 RISE = (-0.9, -0.77, -0.6, -0.4, -0.2, 0.0)
 

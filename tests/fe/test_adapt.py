@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fe_training.adapt import transferred
-from fe_training.body import Body
-from fe_training.cut import Settings
-from fe_training.equilibrium import Control, control_value, undeformed
-from fe_training.mesh import MeshSpec, crack_mesh
-from fe_training.path import Steps
-from fe_training.solve import far_field_cut
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver.adapt import transferred
+from fe_training.solver.cut import Settings
+from fe_training.solver.equilibrium import Control, control_value, undeformed
+from fe_training.solver.path import Steps
+from fe_training.solver.solve import far_field_cut
 
 ROUGH = MeshSpec(notch_radius=0.01, outer_radius=1e3, sectors=8, contact_spacing=0.4)
 FINE = Settings(sectors=20, contact_spacing=0.07, outer_radius=1e5)

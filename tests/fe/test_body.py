@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from skfem import Basis, LinearForm, MeshTri
 
-from fe_training import ogden
-from fe_training.body import ELEMENTS, Body
-from fe_training.energy_release import strain_energy
-from fe_training.equilibrium import State
-from fe_training.mesh import MeshSpec, crack_mesh
+from fe_training.mechanics import ogden
+from fe_training.mechanics.body import ELEMENTS, Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver.energy_release import strain_energy
+from fe_training.solver.equilibrium import State
 
 ALPHAS = [2.0, 5.0, 9.0]
 each_element = pytest.mark.parametrize("element", sorted(ELEMENTS))

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from fe_training import contact, reference
-from fe_training.body import Body
-from fe_training.equilibrium import (
+from fe_training.mechanics import active_set as contact
+from fe_training.mechanics import analytic as reference
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver.equilibrium import (
     Control,
     NewtonOutcome,
     _Linearisation,
@@ -13,8 +15,7 @@ from fe_training.equilibrium import (
     equilibrate,
     undeformed,
 )
-from fe_training.mesh import MeshSpec, crack_mesh
-from fe_training.solvers import make_solver
+from fe_training.solver.linear_solvers import make_solver
 
 CONTROLS = {
     Control.HEIGHT: 1e-4,
@@ -226,7 +227,7 @@ def test_far_field_wedge(distance):
     the contact's ends: B and the height of the wire agree to order a^2/4 = 7 %.  The relation of
     J and F_v knows nothing of the contact's details and holds to 1 %.
     """
-    from fe_training.energy_release import domain_integral
+    from fe_training.solver.energy_release import domain_integral
 
     spec = MeshSpec(
         sectors=14,

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from skfem import MeshTri
 
-from fe_training import reference
-from fe_training.body import Body
-from fe_training.energy_release import domain_integral, plateau, strain_energy
-from fe_training.equilibrium import Control, NewtonOutcome, equilibrate
-from fe_training.mesh import MeshSpec, crack_mesh
-from fe_training.solvers import make_solver
+from fe_training.mechanics import analytic as reference
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver.energy_release import domain_integral, plateau, strain_energy
+from fe_training.solver.equilibrium import Control, NewtonOutcome, equilibrate
+from fe_training.solver.linear_solvers import make_solver
 
 # inside the contact, across it, around it and far from it
 SUPPORTS = [(0.1, 0.5), (0.3, 2.0), (2.0, 20.0), (20.0, 1000.0)]

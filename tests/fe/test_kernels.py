@@ -7,9 +7,9 @@ entry of the element, leaves room for the sum over quadrature points; 1e-13 is s
 import numpy as np
 import pytest
 
-from fe_training import kernels, ogden
-from fe_training.body import Body
-from fe_training.mesh import MeshSpec, crack_mesh
+from fe_training.mechanics import kernels, ogden
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
 
 TOLERANCE = 1e-12
 compiled, compiled_polar = kernels._compiled() or (None, None)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from fe_training import __main__ as command
-from fe_training import solve as solving
 from fe_training.__main__ import main
-from fe_training.record import Outcome, Record
-from fe_training.resolutions import RESOLUTIONS
+from fe_training.solver import solve as solving
+from fe_training.solver.cut import RESOLUTIONS
+from fe_training.solver.record import Outcome, Record
 
 ONE = ["solve", "--alpha", "9", "--g", "1", "--resolution", "coarse"]
 REACHED = Record(

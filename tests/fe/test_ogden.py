@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from fe_training import ogden
+from fe_training.mechanics import ogden
 
 TOLERANCE = 1e-13
 ALPHAS = [2.0, 3.5, 5.0, 9.0]

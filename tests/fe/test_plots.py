@@ -7,13 +7,17 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from fe_training import plots
-from fe_training.errors import InputError, MissingExtraError
-from fe_training.plots import plot_configuration, plot_energy_release_rate, plot_stress_ahead
-from fe_training.record import Outcome, Record
-from fe_training.reference import far_field_wedge
-from fe_training.resolutions import RESOLUTIONS
-from fe_training.solve import indentation_cut
+from fe_training.mechanics.analytic import far_field_wedge
+from fe_training.solver import pictures as plots
+from fe_training.solver.cut import RESOLUTIONS
+from fe_training.solver.pictures import (
+    plot_configuration,
+    plot_energy_release_rate,
+    plot_stress_ahead,
+)
+from fe_training.solver.record import Outcome, Record
+from fe_training.solver.solve import indentation_cut
+from surrogate.errors import InputError, MissingExtraError
 
 
 @pytest.fixture(scope="module")
@@ -197,6 +201,6 @@ def test_nothing_reached_is_an_error(plot, records):
 
 
 def test_without_matplotlib_the_error_names_the_extra(monkeypatch, cut, state):
-    monkeypatch.setattr(plots, "find_spec", lambda name: None)
+    monkeypatch.setattr("fe_training.figure_style.find_spec", lambda name: None)
     with pytest.raises(MissingExtraError, match=r"pip install 'wirecut\[train\]'"):
         plot_configuration(cut.body, state)

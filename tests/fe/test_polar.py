@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from fe_training import adapt, kernels, ogden
-from fe_training.body import Body
-from fe_training.contact import no_contact
-from fe_training.equilibrium import State
-from fe_training.mesh import MeshSpec, crack_mesh
+from fe_training.mechanics import kernels, ogden
+from fe_training.mechanics.active_set import no_contact
+from fe_training.mechanics.body import Body
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver import adapt
+from fe_training.solver.equilibrium import State
 
 CENTRE = np.array([-1.2, -0.9])
 SPEC = MeshSpec(notch_radius=0.05, outer_radius=10.0, sectors=8, contact_spacing=0.5)

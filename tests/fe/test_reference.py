@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from fe_training import reference
+from fe_training.mechanics import analytic as reference
 from surrogate.errors import InputError
 
 

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fe_training import cut
-from fe_training.cut import Settings
-from fe_training.record import Outcome, Record
-from fe_training.reference import far_field_wedge
-from fe_training.solve import solve, solve_path
+from fe_training.mechanics.analytic import far_field_wedge
+from fe_training.solver import cut
+from fe_training.solver.cut import Settings
+from fe_training.solver.record import Outcome, Record
+from fe_training.solver.solve import solve, solve_path
 from surrogate.errors import InputError
 
 COARSE = Settings(sectors=16, contact_spacing=0.15, notch_radius=5e-3, outer_radius=1e5)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from fe_training import solvers
-from fe_training.errors import InputError, MissingExtraError
-from fe_training.mesh import MeshSpec, crack_mesh
+from fe_training.mechanics.mesh import MeshSpec, crack_mesh
+from fe_training.solver import linear_solvers as solvers
+from surrogate.errors import InputError, MissingExtraError
 
 SPEC = MeshSpec(notch_radius=0.05, outer_radius=3.0, sectors=5, contact_spacing=1.0)
 NAMES = sorted(solvers._SOLVERS)
@@ -21,7 +21,7 @@ def solver(request):
 @pytest.fixture(scope="module")
 def matrices(places):
     """Tangents of one body in three states: symmetric, indefinite, with a zero block."""
-    from fe_training.body import Body
+    from fe_training.mechanics.body import Body
 
     body = Body(crack_mesh(SPEC), 3.0)
     rng = np.random.default_rng(6)

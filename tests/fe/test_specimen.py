@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from fe_training import specimen
-from fe_training.cut import Settings
-from fe_training.errors import InputError
-from fe_training.mesh import MeshSpec, block_mesh
-from fe_training.specimen import Case, Result, Side, block_cut, solve_case
+from fe_training.mechanics.mesh import MeshSpec, block_mesh
+from fe_training.paper import specimen
+from fe_training.paper.specimen import Case, Result, Side, block_cut, solve_case
+from fe_training.solver.cut import Settings
+from surrogate.errors import InputError
 
 COARSE = Settings(sectors=12, contact_spacing=0.16)
 

@@ -12,14 +12,30 @@ import numpy as np
 import pytest
 
 from fe_training import __main__ as command
-from fe_training import solve as engine
-from fe_training import verify, verify_report, verify_run
 from fe_training.__main__ import main
-from fe_training.cut import Settings
-from fe_training.errors import InputError
-from fe_training.record import EVIDENCE_BOUND, Outcome, Record
-from fe_training.reference import far_field_wedge
-from fe_training.verify import STUDIES, Case, Solved, cases_of, full_scope, judged, quick_scope
+from fe_training.mechanics.analytic import far_field_wedge
+from fe_training.solver import solve as engine
+from fe_training.solver.cut import Settings
+from fe_training.solver.record import EVIDENCE_BOUND, Outcome, Record
+from fe_training.verification import (
+    report as verify_report,
+)
+from fe_training.verification import (
+    run as verify_run,
+)
+from fe_training.verification import (
+    studies as verify,
+)
+from fe_training.verification.studies import (
+    STUDIES,
+    Case,
+    Solved,
+    cases_of,
+    full_scope,
+    judged,
+    quick_scope,
+)
+from surrogate.errors import InputError
 
 #: Factor of sqrt(g R_w/L), relative difference of J between meshes, that the fake engine has.
 FACTOR, MESH_ERROR = 0.2, 8e-4

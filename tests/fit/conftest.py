@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-import surrogate.costs
-import surrogate.fitted
-from fe_training import fit_gp
-from fe_training.fit import fit, write_fitted
+import surrogate.choosing.catalogue
+import surrogate.contact.shipped
+from fe_training.fitting import process as fit_gp
+from fe_training.fitting.fit import fit, write_fitted
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))  # for `made_up`
@@ -33,6 +33,6 @@ def fitted_file(tmp_path_factory):
 @pytest.fixture
 def installed(fitted_file, monkeypatch):
     """The fitted models as this installation's own, which never measured what they cost."""
-    monkeypatch.setattr(surrogate.costs, "models_folder", lambda: fitted_file.parent)
-    monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: fitted_file.parent)
-    return surrogate.fitted.shipped()
+    monkeypatch.setattr(surrogate.choosing.catalogue, "models_folder", lambda: fitted_file.parent)
+    monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted_file.parent)
+    return surrogate.contact.shipped.shipped()

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from fe_training.fit_points import FitPoints
-from surrogate.quantities import POWER
-from surrogate.wedge import wedge_functions, wedge_load
+from fe_training.fitting.points import FitPoints
+from surrogate.contact.coordinates import POWER
+from surrogate.contact.wedge import wedge_functions, wedge_load
 
 TOUCH = (-0.9, 2.0, 0.05)
 ALPHAS = (2.0, 2.4, 3.3, 4.7, 6.5, 8.3, 9.0)

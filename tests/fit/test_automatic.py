@@ -13,7 +13,7 @@ from surrogate import (
     cutting_force,
     dissipative_force,
 )
-from surrogate.fitted_models import FittedModel
+from surrogate.contact.fitted import FittedModel
 
 pytestmark = pytest.mark.usefixtures("installed")
 

@@ -8,20 +8,25 @@ import numpy as np
 import pytest
 from made_up import ALPHAS, G, truth
 
-from fe_training.contact_ends import contact_ends
-from fe_training.dataset import load_campaign, write_campaign
-from fe_training.design import CampaignDesign, Configuration, Denser, read_design
-from fe_training.errors import InputError
-from fe_training.fit import fit
-from fe_training.fit_points import ARC_FLOOR, points_of
-from fe_training.record import Outcome, Record
+from fe_training.campaign.dataset import load_campaign, write_campaign
+from fe_training.campaign.design import (
+    CampaignDesign,
+    Configuration,
+    Denser,
+    read_design,
+)
+from fe_training.campaign.store import Row
+from fe_training.fitting.fit import fit
+from fe_training.fitting.points import ARC_FLOOR, points_of
 from fe_training.regenerate import main
-from fe_training.store import Row
-from fe_training.surrogates import validation
-from fe_training.validate import Errors, calibration, summary
-from surrogate.fitted import read
-from surrogate.paths import model_file
-from surrogate.quantities import QUANTITIES
+from fe_training.solver.observe import contact_ends
+from fe_training.solver.record import Outcome, Record
+from fe_training.validation.model_errors import Errors, calibration, summary
+from fe_training.validation.surrogates import validation
+from surrogate.basics.files import model_file
+from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.shipped import read
+from surrogate.errors import InputError
 
 LEVELS = read_design(model_file("campaign.toml")).levels
 SECTORS = {name: settings.sectors for name, settings in LEVELS.items()}

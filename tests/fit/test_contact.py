@@ -16,7 +16,7 @@ from surrogate import (
     dissipative_force,
     energy_release_rate,
 )
-from surrogate.wedge import wedge_functions, wedge_load
+from surrogate.contact.wedge import wedge_functions, wedge_load
 
 pytestmark = pytest.mark.usefixtures("installed")
 
@@ -48,7 +48,7 @@ def test_numbers_and_arrays_agree_to_the_last_bit(model):
 @every_model
 def test_blocks_change_no_bit(model, monkeypatch):
     at_once = values(contact_functions(G, ALPHA, model=model))
-    monkeypatch.setattr("surrogate.fitted_models.BLOCK", 3)
+    monkeypatch.setattr("surrogate.contact.fitted.BLOCK", 3)
     np.testing.assert_array_equal(values(contact_functions(G, ALPHA, model=model)), at_once)
 
 

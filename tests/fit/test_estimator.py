@@ -7,8 +7,8 @@ from sklearn.base import clone
 from sklearn.exceptions import NotFittedError
 from sklearn.model_selection import GroupKFold, cross_val_score
 
-from fe_training.errors import InputError
-from fe_training.estimator import ContactRegressor
+from fe_training.fitting.estimator import ContactRegressor
+from surrogate.errors import InputError
 
 
 @pytest.fixture(scope="module")

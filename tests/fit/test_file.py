@@ -9,10 +9,18 @@ import numpy as np
 import pytest
 
 import surrogate
-import surrogate.fitted
+import surrogate.contact.shipped
 from surrogate import InputError, contact_functions, cutting_force
-from surrogate.fitted import fitted_from, read, to_file
-from surrogate.fitted_file import FILE, SCHEMA, checksum_line, content_of, read_fitted
+from surrogate.basics.files import checksum_line
+from surrogate.contact.shipped import (
+    FILE,
+    SCHEMA,
+    content_of,
+    fitted_from,
+    read,
+    read_fitted,
+    to_file,
+)
 
 
 @pytest.fixture
@@ -147,7 +155,7 @@ def test_an_incomplete_file_is_refused(file, about, arrays):
 
 
 def test_without_a_file_it_is_said_what_to_do(monkeypatch, tmp_path):
-    monkeypatch.setattr(surrogate.fitted, "models_folder", lambda: tmp_path)
+    monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: tmp_path)
     for model in ("power-law", "table", "gp"):
         with pytest.raises(InputError, match=r"not shipped with this version; .*regen-surrogate"):
             contact_functions(1.0, 2.0, model=model)

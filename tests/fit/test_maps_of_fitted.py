@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from surrogate import Scene, classify, cutting_force, regime_map
-from surrogate.regimes import PARTS, touching_toughness
+from surrogate.cutting.regimes import PARTS, touching_toughness
 
 MODELS = ("power-law", "table", "gp", "auto")
 INSIDE = ((1e-2, 50.0), (1e-2, 100.0))
@@ -88,7 +88,7 @@ def test_the_error_bound_of_auto_is_on_the_map(installed):
 
 def test_pictures(installed, tmp_path):
     pytest.importorskip("matplotlib")
-    from surrogate.map_plots import save_regime_map
+    from surrogate.maps.figure import save_regime_map
 
     made = groups("table", ((1e-3, 1e3), (1e-2, 100.0)))
     save_regime_map(made, tmp_path / "map.png", error_of="eq13")

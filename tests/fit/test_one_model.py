@@ -16,8 +16,7 @@ from surrogate import (
     propagate,
     transition_radius,
 )
-from surrogate.model_error import contact_bounds, contact_std
-from surrogate.one_model import one_model
+from surrogate.choosing.accuracy import contact_bounds, contact_std, one_model
 from surrogate.scene import NAMES
 
 pytestmark = pytest.mark.usefixtures("installed")

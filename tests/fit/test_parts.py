@@ -7,16 +7,20 @@ import numpy as np
 import pytest
 from made_up import points
 
-from fe_training.fit_gp import leave_out_errors
-from surrogate.blended import BlendModel, distance_formula
-from surrogate.cell_grid import Grid
-from surrogate.cell_table import CellTable
-from surrogate.domain import Domain
-from surrogate.gaussian_process import GaussianProcess
-from surrogate.inverse import toughness_of
-from surrogate.quantities import vertex
-from surrogate.touch import log_touch, log_touch_slope
-from surrogate.wedge import wedge_functions, wedge_load, wedge_slope, wedge_slopes
+from fe_training.fitting.process import leave_out_errors
+from surrogate.contact.coordinates import log_touch, log_touch_slope, vertex
+from surrogate.contact.domain import Domain
+from surrogate.contact.fitted import toughness_of
+from surrogate.contact.formula import BlendModel, distance_formula
+from surrogate.contact.grid import Grid
+from surrogate.contact.process import GaussianProcess
+from surrogate.contact.table import CellTable
+from surrogate.contact.wedge import (
+    wedge_functions,
+    wedge_load,
+    wedge_slope,
+    wedge_slopes,
+)
 
 LOG_G = np.array([-740.0, -40.0, -6.0, -1.0, 0.0, 2.0, 5.0, 9.0])
 

@@ -10,9 +10,10 @@ from dataclasses import dataclass, field
 from functools import cache, partial
 
 import surrogate
+from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.shipped import shipped
 from surrogate.errors import WirecutError
-from surrogate.fitted import shipped
-from surrogate.force_models import FITTED_NAMES, FORCE_MODELS
 from surrogate.scene import NAMES, Scene
 
 from . import exact

@@ -13,15 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-from fe_training.dataset import load_campaign, require_checksum
-from fe_training.design import read_design
-from fe_training.specimen import read_results
-from fe_training.store import DamagedRowError, Row, decode_row, encode_row
+from fe_training.campaign.dataset import load_campaign, require_checksum
+from fe_training.campaign.design import read_design
+from fe_training.campaign.store import DamagedRowError, Row, decode_row, encode_row
+from fe_training.paper.specimen import read_results
 from surrogate import read_material, read_measurements
+from surrogate.basics.files import models_folder
+from surrogate.contact.shipped import fitted_from, read_fitted
 from surrogate.errors import WirecutError
-from surrogate.fitted import fitted_from
-from surrogate.fitted_file import read_fitted
-from surrogate.paths import models_folder
 
 from .part import Part
 
@@ -86,7 +85,7 @@ def kinds(folder):
         if _reader(path)
     }
     row = Path(folder, "made-up.row")
-    from fe_training.design import Configuration
+    from fe_training.campaign.design import Configuration
 
     one = Configuration("coarse", 2.0, 0.1)
     row.write_bytes(encode_row(Row(one, 0, 1, {"wirecut": "0"}, record(2.0, 0.1))))

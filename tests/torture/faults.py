@@ -16,10 +16,10 @@ from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
-from fe_training.design import read_design
-from fe_training.store import DamagedRowError, decode_row, encode_row
+from fe_training.campaign.design import read_design
+from fe_training.campaign.store import DamagedRowError, decode_row, encode_row
+from surrogate.basics.files import model_file
 from surrogate.errors import WirecutError
-from surrogate.paths import model_file
 
 from .part import Part
 

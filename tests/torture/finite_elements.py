@@ -65,8 +65,8 @@ CASES = tuple(_cases())
 SOLVE = """
 import json, random, sys
 from fe_training import solve as engine
-from fe_training.cut import Settings
-from fe_training.path import Steps
+from fe_training.solver.cut import Settings
+from fe_training.solver.path import Steps
 
 case = json.loads(sys.argv[1])
 if case["start"] is not None:

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
 from surrogate import read_material, read_measurements
+from surrogate.basics.files import model_file
 from surrogate.errors import WirecutError
-from surrogate.paths import model_file
 
 from .part import Part
 

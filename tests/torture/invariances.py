@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import surrogate
-import surrogate.fitted
+import surrogate.contact.shipped
 from surrogate.errors import InputError
 
 from .cases import cases
@@ -156,8 +156,8 @@ def _in_processes(part, expected, number):
     """Compare with what another process finds, started afresh."""
     with tempfile.TemporaryDirectory() as folder:
         try:
-            surrogate.fitted.shipped()
-            models = str(surrogate.fitted.models_folder())
+            surrogate.contact.shipped.shipped()
+            models = str(surrogate.contact.shipped.models_folder())
         except InputError:
             models = ""
         path = os.pathsep.join([str(HERE.parent), str(HERE.parent.parent)])

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import surrogate
-from surrogate.force_models import FORCE_MODELS, force_model
+from surrogate.choosing.by_name import force_model
+from surrogate.contact.closed_forms import FORCE_MODELS
 
 from .cells import attempt
 from .part import Part

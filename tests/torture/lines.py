@@ -5,11 +5,11 @@ import time
 
 import numpy as np
 
-from surrogate.choice import available
+from surrogate.choosing.auto import available
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.shipped import shipped
 from surrogate.errors import WirecutError
-from surrogate.fitted import shipped
-from surrogate.force_models import FORCE_MODELS
-from surrogate.quantities import QUANTITIES
 
 from .cells import attempt
 from .part import Part

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-import surrogate.fitted
+import surrogate.contact.shipped
 from surrogate.errors import InputError
 
 __all__ = ["install"]
@@ -20,21 +20,21 @@ def install(folder):
         Where models fitted to a made-up contact are kept, if none are shipped.
     """
     try:
-        surrogate.fitted.shipped()
+        surrogate.contact.shipped.shipped()
         return "the fitted models are those shipped"
     except InputError:
         pass
-    surrogate.fitted.models_folder = lambda: folder
+    surrogate.contact.shipped.models_folder = lambda: folder
     try:
-        surrogate.fitted.shipped()
+        surrogate.contact.shipped.shipped()
     except InputError:  # none yet, or of an earlier version
         _made_up(folder)
-        surrogate.fitted.shipped()
+        surrogate.contact.shipped.shipped()
     return "no fitted models are shipped: these were fitted to a made-up contact (tests/fit)"
 
 
 def _made_up(folder):
-    from fe_training.fit import fit, write_fitted
+    from fe_training.fitting.fit import fit, write_fitted
 
     sys.path.insert(0, str(MADE_UP))
     from made_up import points

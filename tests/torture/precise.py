@@ -6,9 +6,9 @@ from functools import cached_property
 import mpmath
 import numpy as np
 
-from surrogate.fitted import shipped
-from surrogate.gaussian_process import JITTER
-from surrogate.quantities import QUANTITIES
+from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.process import JITTER
+from surrogate.contact.shipped import shipped
 
 from .exact import mp
 from .part import Part

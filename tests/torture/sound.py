@@ -1,6 +1,6 @@
 """Sound values of every parameter of the public functions, by name."""
 
-from surrogate.paths import model_file
+from surrogate.basics.files import model_file
 from surrogate.scene import NAMES, Scene
 
 __all__ = ["ALIASES", "ARRAYS", "BASE", "CHOICES", "FORCES", "OWN", "RADII", "SCENE", "STD"]

@@ -14,7 +14,7 @@ def test_damaged_files_are_refused_and_execute_nothing():
 
 
 def test_every_shipped_file_that_has_a_checksum_is_damaged(tmp_path):
-    from surrogate.paths import models_folder
+    from surrogate.basics.files import models_folder
 
     summed = {path.name.removesuffix(".sha256") for path in models_folder().glob("*.sha256")}
     assert summed <= {name for name, (*_, summed) in kinds(tmp_path).items() if summed}

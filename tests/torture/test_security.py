@@ -41,7 +41,7 @@ OWN_PYTHONS = {"scripts/torture-numpy": "environments that it has made itself"}
 def modules():
     """Yield every module and script of the project."""
     for package in PACKAGES:
-        for path in sorted((ROOT / package).iterdir()):
+        for path in sorted((ROOT / package).rglob("*")):
             if path.suffix == ".py" or (package == "scripts" and path.is_file()):
                 yield path
 
@@ -145,8 +145,8 @@ def test_the_scan_sees_what_it_looks_for(tmp_path):
 
 @pytest.mark.parametrize("name", ["../pyproject.toml", "/etc/passwd", "a/b.csv", "..", "", "x\0y"])
 def test_names_of_shipped_files_never_leave_their_folder(name):
+    from surrogate.basics.files import model_file
     from surrogate.errors import InputError
-    from surrogate.paths import model_file
 
     with pytest.raises(InputError, match="is shipped"):
         model_file(name)
@@ -154,9 +154,9 @@ def test_names_of_shipped_files_never_leave_their_folder(name):
 
 def test_names_in_designs_never_leave_the_store(tmp_path):
     pytest.importorskip("joblib", reason="the extra 'train' is not installed")
-    from fe_training.design import read_design
-    from fe_training.errors import InputError
-    from surrogate.paths import model_file
+    from fe_training.campaign.design import read_design
+    from surrogate.basics.files import model_file
+    from surrogate.errors import InputError
 
     text = model_file("campaign-quick.toml").read_text(encoding="utf-8")
     for level in ("../../escaped", "/escaped", "a/b", "..", "a\\b"):
@@ -166,7 +166,7 @@ def test_names_in_designs_never_leave_the_store(tmp_path):
             design = read_design(file)
         except InputError:
             continue
-        from fe_training.store import Store
+        from fe_training.campaign.store import Store
 
         store = Store(tmp_path / "store")
         for one in design.configurations():

@@ -1,0 +1,1 @@
+"""Many configurations, and the data set that is made of them."""

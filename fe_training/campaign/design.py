@@ -1,0 +1,403 @@
+"""What a campaign solves: a design read from TOML, its configurations and its tasks."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fe_training.solver.cut import Settings
+from fe_training.solver.solve import ALPHA_RANGE, G_RANGE
+from surrogate.basics.files import file_name
+from surrogate.errors import InputError
+
+__all__ = ["STRATEGIES", "CampaignDesign", "Configuration", "Denser", "Task", "read_design"]
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+_SCHEMA = "wirecut-campaign-1"
+_MOST_NODES = 10_000
+
+#: How the settings of a level are changed at each attempt: a failed configuration is tried again
+#: with the next one when the campaign is run again.
+STRATEGIES: tuple[Callable[[Settings], Settings], ...] = (
+    lambda settings: settings,
+    lambda settings: replace(settings.refined(1.25), notch_radius=settings.notch_radius / 2),
+    lambda settings: replace(settings.refined(1.5), notch_radius=settings.notch_radius / 4),
+)
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Configuration:
+    """One entry of a campaign.
+
+    Parameters
+    ----------
+    level : str
+        Name of the mesh level.
+    alpha : float
+        Strain-stiffening exponent [-].
+    target : float
+        Wanted g = J/(mu R_w) [-].
+    """
+
+    level: str
+    alpha: float
+    target: float
+
+    def __str__(self) -> str:
+        return f"alpha={self.alpha:.12g},g={self.target:.12g},level={self.level}"
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """Configurations of one alpha and level that are solved in one go, with the same strategy.
+
+    Parameters
+    ----------
+    configurations : tuple of Configuration
+        In rising order of g.
+    attempt : int
+        Which of the strategies to take, from 0.
+    """
+
+    configurations: tuple[Configuration, ...]
+    attempt: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Denser:
+    """Where the nodes in g are denser: around the touch of the tip.
+
+    Parameters
+    ----------
+    alpha, touch : tuple of float
+        Stiffening exponents in rising order and g at which the tip touches the wire [-].
+    peak : float
+        Surplus density at the touch, relative to that far away [-].
+    width : float
+        Width of the surplus [decades of g].
+    """
+
+    alpha: tuple[float, ...]
+    touch: tuple[float, ...]
+    peak: float
+    width: float
+
+    def density(self, alpha: float, log_g: Any) -> Any:
+        """Return the density of nodes at log10 g, relative to that far from the touch."""
+        touch = np.interp(alpha, self.alpha, np.log10(self.touch))
+        return 1.0 + self.peak * np.exp(-(((log_g - touch) / self.width) ** 2))
+
+
+@dataclass(frozen=True)
+class CampaignDesign:
+    """The numbers that determine a campaign; lengths in R_w, g = J/(mu R_w).
+
+    Parameters
+    ----------
+    alpha : tuple of float
+        Stiffening exponents, rising [-].
+    lowest, highest : float
+        Ends of the range of g [-].
+    count : int
+        Nodes in g for each alpha.
+    denser : Denser
+        Where they are denser.
+    path_from : float
+        From this g on, the configurations of one alpha and level are solved along one path [-].
+    levels : dict of str to Settings
+        The two meshes, the coarser one first.
+    nodes : tuple of tuple of float, optional
+        The nodes in g of each alpha, rising, where they are given one by one.
+    """
+
+    alpha: tuple[float, ...]
+    lowest: float
+    highest: float
+    count: int
+    denser: Denser
+    path_from: float
+    levels: Mapping[str, Settings]
+    nodes: tuple[tuple[float, ...], ...] | None = None
+
+    @property
+    def hash(self) -> str:
+        """Sixteen hexadecimal digits that two designs share only if all their numbers agree."""
+        text = json.dumps(self.as_dict(), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all numbers, defaults of the settings included, as plain dictionaries."""
+        levels = [[name, asdict(settings)] for name, settings in self.levels.items()]
+        numbers = {field.name: getattr(self, field.name) for field in fields(self)}
+        if self.nodes is None:
+            del numbers["nodes"]  # as if there were no such field, for the hash
+        return {**numbers, "denser": asdict(self.denser), "levels": levels}
+
+    @classmethod
+    def from_dict(cls, numbers: Mapping[str, Any]) -> CampaignDesign:
+        """Return the design of which `as_dict` gave the numbers."""
+        denser = {name: _plain(value) for name, value in numbers["denser"].items()}
+        levels = {name: Settings(**values) for name, values in numbers["levels"]}
+        rest = {name: _plain(value) for name, value in numbers.items()}
+        if "nodes" in numbers:
+            rest["nodes"] = tuple(map(tuple, numbers["nodes"]))
+        return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
+
+    def g(self, alpha: float) -> tuple[float, ...]:
+        """Return the nodes in g of one alpha, rising, rounded to four digits where computed."""
+        if self.nodes is not None:
+            return self.nodes[self.alpha.index(alpha)]
+        fine = np.linspace(np.log10(self.lowest), np.log10(self.highest), 4001)
+        density = self.denser.density(alpha, fine)
+        share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
+        nodes = np.interp(np.linspace(0.0, share[-1], self.count), share, fine)
+        return tuple(float(f"{10.0**node:.4g}") for node in nodes)
+
+    def configurations(self) -> list[Configuration]:
+        """Return all configurations: level by level, in rising order of alpha and g."""
+        return [
+            Configuration(level, alpha, g)
+            for level in self.levels
+            for alpha in self.alpha
+            for g in self.g(alpha)
+        ]
+
+    def together(self, one: Configuration) -> list[Configuration]:
+        """Return the configurations that are solved along one path with a given one, it included.
+
+        They are those of the same level and alpha from `path_from` on; below, it is alone.
+        """
+        if one.target < self.path_from:
+            return [one]
+        path = [Configuration(one.level, one.alpha, g) for g in self.g(one.alpha)]
+        return [other for other in path if other.target >= self.path_from]
+
+    def settings(self, level: str, attempt: int) -> Settings:
+        """Return the settings of a level at an attempt."""
+        return STRATEGIES[attempt](self.levels[level])
+
+    def tasks(self, wanted: Iterable[tuple[Configuration, int]]) -> list[Task]:
+        """Return the tasks that solve configurations, each with its attempt; long ones first.
+
+        Those at and above `path_from` that share alpha, level and attempt are one task, as one
+        path passes them all; every other one is a task of its own.
+        """
+        paths: dict[tuple[int, str, float], list[Configuration]] = {}
+        alone = []
+        for one, attempt in sorted(wanted):
+            if one.target >= self.path_from:
+                paths.setdefault((attempt, one.level, one.alpha), []).append(one)
+            else:
+                alone.append(Task((one,), attempt))
+        order = list(self.levels)
+        tasks = [Task(tuple(several), key[0]) for key, several in paths.items()] + alone
+        return sorted(
+            tasks,
+            key=lambda task: (
+                task.configurations[0].target < self.path_from,
+                -order.index(task.configurations[0].level),
+            ),
+        )
+
+
+def read_design(path: str | os.PathLike[str]) -> CampaignDesign:
+    """Return the design in a TOML file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A file like ``models/campaign.toml``.
+
+    Returns
+    -------
+    CampaignDesign
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or a number in it is missing or unusable.
+
+    Examples
+    --------
+    >>> from surrogate.basics.files import model_file
+    >>> design = read_design(model_file("campaign.toml"))
+    >>> len(design.alpha), len(design.configurations())
+    (11, 968)
+    """
+    name = file_name(path)
+    try:
+        table = tomllib.loads(Path(name).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"the design {name} cannot be read ({error.strerror}).") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"the design {name} is no TOML: {error}.") from None
+    try:
+        return _checked(_Table("", table))
+    except InputError as error:
+        raise InputError(f"the design {name}: {error}") from None
+
+
+class _Table:
+    """A table of the design; taking from it what is expected finds what is missing or unknown."""
+
+    def __init__(self, name: str, content: Mapping[str, Any]) -> None:
+        self.name, self._left = name, dict(content)
+
+    def _take(self, key: str, kind: type | tuple[type, ...], what: str) -> Any:
+        name = f"{self.name}{key}"
+        if key not in self._left:
+            raise InputError(f"{name} is missing; give {what}.")
+        value = self._left.pop(key)
+        if not isinstance(value, kind) or isinstance(value, bool):
+            raise InputError(f"{name} is {value!r}; give {what}.")
+        return value
+
+    def number(self, key: str, lower: float, upper: float) -> float:
+        what = f"a number from {lower:g} to {upper:g}"
+        return _inside(f"{self.name}{key}", self._take(key, (int, float), what), lower, upper)
+
+    def integer(self, key: str, lower: int, upper: int) -> int:
+        value = self._take(key, int, f"a whole number from {lower} to {upper}")
+        return int(_inside(f"{self.name}{key}", value, lower, upper))
+
+    def numbers(self, key: str, lower: float, upper: float, rising: bool) -> tuple[float, ...]:
+        name, order = f"{self.name}{key}", "rising " if rising else ""
+        what = f"a list of {order}numbers from {lower:g} to {upper:g}"
+        values = self._take(key, list, what)
+        if not values or not all(isinstance(v, (int, float)) for v in values):
+            raise InputError(f"{name} is {values!r}; give {what}.")
+        checked = tuple(_inside(name, value, lower, upper) for value in values)
+        if rising and any(b <= a for a, b in pairwise(checked)):
+            raise InputError(f"{name} is {values!r}, which does not rise; give {what}.")
+        return checked
+
+    def lists(self, key: str, lower: float, upper: float) -> tuple[tuple[float, ...], ...]:
+        values = self._take(key, list, "a list of lists of numbers")
+        within = _Table(f"{self.name}{key} ", {str(i): v for i, v in enumerate(values)})
+        return tuple(within.numbers(str(i), lower, upper, True) for i in range(len(values)))
+
+    def has(self, key: str) -> bool:
+        return key in self._left
+
+    def text(self, key: str, expected: str) -> None:
+        if self._take(key, str, repr(expected)) != expected:
+            raise InputError(f"{self.name}{key} is not {expected!r}; no other is known.")
+
+    def table(self, key: str) -> _Table:
+        return _Table(f"{self.name}{key}.", self._take(key, dict, "a table"))
+
+    def rest(self) -> dict[str, Any]:
+        left, self._left = self._left, {}
+        return left
+
+    def end(self) -> None:
+        if self._left:
+            names = ", ".join(f"{self.name}{key}" for key in self._left)
+            raise InputError(f"{names} is unknown; leave it out.")
+
+
+def _checked(table: _Table) -> CampaignDesign:
+    table.text("schema", _SCHEMA)
+    alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
+    path_from = table.number("path_from", 0.0, math.inf)
+    g, levels = table.table("g"), table.table("levels")
+    table.end()
+    if g.has("nodes"):
+        return _listed(alpha, path_from, g, _levels(levels))
+    lowest = g.number("lowest", *G_RANGE)
+    highest = g.number("highest", *G_RANGE)
+    if highest <= lowest:
+        raise InputError(f"g.highest = {highest:g} is not above g.lowest = {lowest:g}.")
+    count = g.integer("count", 2, _MOST_NODES)
+    denser = g.table("denser")
+    g.end()
+    at = denser.numbers("alpha", *ALPHA_RANGE, rising=True)
+    touch = denser.numbers("touch", *G_RANGE, rising=False)
+    if len(touch) != len(at):
+        raise InputError(
+            f"g.denser.touch has {len(touch)} numbers and g.denser.alpha {len(at)}; "
+            "give one for each alpha."
+        )
+    peak, width = denser.number("peak", 0.0, 100.0), denser.number("width", 0.01, 10.0)
+    denser.end()
+    design = CampaignDesign(
+        alpha, lowest, highest, count, Denser(at, touch, peak, width), path_from, _levels(levels)
+    )
+    for value in alpha:
+        if len(set(design.g(value))) < count:
+            raise InputError(
+                f"g.count = {count} nodes between {lowest:g} and {highest:g} coincide in four "
+                "digits; give fewer."
+            )
+    return design
+
+
+def _listed(
+    alpha: tuple[float, ...], path_from: float, g: _Table, levels: dict[str, Settings]
+) -> CampaignDesign:
+    """Return the design whose nodes in g are given one by one for each alpha."""
+    nodes = g.lists("nodes", *G_RANGE)
+    g.end()
+    if len(nodes) != len(alpha):
+        raise InputError(
+            f"g.nodes has {len(nodes)} lists and alpha {len(alpha)} values; give one for each."
+        )
+    every = [node for each in nodes for node in each]
+    nowhere = Denser((2.0,), (1.0,), 0.0, 1.0)
+    count = max(map(len, nodes))
+    return CampaignDesign(alpha, min(every), max(every), count, nowhere, path_from, levels, nodes)
+
+
+def _levels(table: _Table) -> dict[str, Settings]:
+    known = {field.name: field for field in fields(Settings)}
+    levels = {}
+    for name, values in table.rest().items():
+        where = f"levels.{name}"
+        if not name.replace("-", "").replace("_", "").isalnum():
+            raise InputError(f"{where} names a level; use letters, digits, '-' and '_' only.")
+        if not isinstance(values, dict):
+            raise InputError(f"{where} is {values!r}; give a table of settings.")
+        for key, value in values.items():
+            if key not in known:
+                raise InputError(f"{where}.{key} is unknown; the settings are {', '.join(known)}.")
+            default = known[key].default
+            kinds = {int: (int,), float: (int, float), bool: (bool,)}.get(type(default), (str,))
+            if type(value) not in kinds:
+                raise InputError(f"{where}.{key} is {value!r}; give something like {default!r}.")
+            if type(value) in (int, float) and not 0 <= value < math.inf:
+                raise InputError(f"{where}.{key} is {value!r}; give a number from 0 on.")
+            values[key] = float(value) if type(default) is float else value
+        levels[name] = Settings(**values)
+    if len(levels) != 2:
+        raise InputError(f"levels has {len(levels)} tables; give two, the coarser one first.")
+    (first, coarse), (second, fine) = levels.items()
+    if fine.sectors <= coarse.sectors or fine.contact_spacing >= coarse.contact_spacing:
+        raise InputError(
+            f"levels.{second} is not finer than levels.{first}; give it more sectors and a "
+            "smaller contact_spacing."
+        )
+    return levels
+
+
+def _inside(name: str, value: float, lower: float, upper: float) -> float:
+    if not lower <= value <= upper or not math.isfinite(value):
+        raise InputError(f"{name} = {value!r}; give {lower:g} to {upper:g}.")
+    return float(value)
+
+
+def _plain(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value

@@ -1,0 +1,1 @@
+"""From the points of a data set to the fitted models."""

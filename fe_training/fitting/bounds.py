@@ -1,0 +1,154 @@
+"""Bounds of the models' errors over cells of (g, alpha), from the campaign alone.
+
+The processes and the table: the largest error of any point of a cell when it, or its whole alpha,
+is predicted from the others, times a factor of safety; where the touch of the tip is in the cell,
+also what its error does. The formulas: their largest distance from the table on a fine grid of
+the cell, and the table's own bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fe_training.fitting.points import FitPoints
+from fe_training.fitting.process import leave_out_errors, rows_of
+from fe_training.fitting.touch import Touch
+from surrogate.contact.base import ForceModel
+from surrogate.contact.bounds import Bounds
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.coordinates import QUANTITIES, coordinates, log_touch
+from surrogate.contact.process import GaussianProcess
+
+__all__ = ["fit_bounds", "left_out_errors"]
+
+Floats = NDArray[np.float64]
+
+ALPHA_EDGES = (2.0, 3.0, 5.0, 9.0)
+G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0)
+SAFETY = 2.0
+"""How many times the largest error of a few dozen points of a cell the largest of all may be."""
+
+_GRID = 24  # points of a cell along each direction
+
+
+def fit_bounds(
+    points: FitPoints,
+    touch: Touch,
+    processes: Mapping[str, GaussianProcess],
+    models: Mapping[str, ForceModel],
+) -> Bounds:
+    """Return the bounds of all models that "auto" chooses among.
+
+    Parameters
+    ----------
+    points : FitPoints
+        What was computed.
+    touch : Touch
+        g_touch(alpha).
+    processes : mapping of str to GaussianProcess
+        The fitted processes.
+    models : mapping of str to ForceModel
+        The fitted models.
+
+    Returns
+    -------
+    Bounds
+    """
+    edges = _edges(G_EDGES, points.g), _edges(ALPHA_EDGES, points.alpha)
+    left_out = left_out_errors(points, processes)
+    errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
+    for function in QUANTITIES:
+        found = {name: np.zeros([len(each) - 1 for each in edges]) for name in errors}
+        own = _own_errors(points, left_out[function], edges)
+        for cell in np.ndindex(own.shape):
+            g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+            bound = SAFETY * own[cell] + _bend_error(processes[function], touch, g, alpha)
+            at = _grid(g, alpha)
+            table = models["table"].contact((function,), *at)[0]
+            apart = {
+                name: _apart(model, function, at, table)
+                for name, model in (("eq13", FORCE_MODELS["eq13"]), *models.items())
+            }
+            found["gp"][cell] = bound
+            found["table"][cell] = bound + apart["gp"]
+            for name in ("eq13", "power-law"):
+                found[name][cell] = found["table"][cell] + apart[name]
+        for name, values in found.items():
+            errors[name][function] = values
+    return Bounds(*edges, errors)
+
+
+def _own_errors(
+    points: FitPoints, errors: Floats, edges: tuple[tuple[float, ...], tuple[float, ...]]
+) -> Floats:
+    """Return the largest error of the points of each cell."""
+    largest = np.zeros([len(each) - 1 for each in edges])
+    for cell in np.ndindex(largest.shape):
+        g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+        inside = (points.g >= g[0]) & (points.g <= g[1])
+        inside &= (points.alpha >= alpha[0]) & (points.alpha <= alpha[1])
+        largest[cell] = np.max(errors[inside], initial=0.0)
+    largest[largest == 0.0] = np.max(largest)  # a cell without a point is as doubtful as the worst
+    return largest
+
+
+def _bend_error(
+    process: GaussianProcess, touch: Touch, g: tuple[float, ...], alpha: tuple[float, ...]
+) -> float:
+    """Return what an error of g_touch does where the function bends, if it does in this cell."""
+    log_alpha = np.log(np.linspace(alpha[0], alpha[1], _GRID))
+    touched = log_touch(touch.coefficients, log_alpha)
+    here = (touched >= np.log(g[0])) & (touched <= np.log(g[1]))
+    if not np.any(here):
+        return 0.0
+    at = coordinates(touched[here], log_alpha[here], touched[here])
+    return float(2.0 * touch.error * np.max(np.abs(process.gradient(at)[:, 2])))
+
+
+def _apart(model: ForceModel, function: str, at: tuple[Floats, Floats], table: Floats) -> float:
+    value = model.contact((function,), *at)[0]
+    return float(np.max(np.abs(np.log(np.broadcast_to(value, table.shape) / table))))
+
+
+def left_out_errors(
+    points: FitPoints, processes: Mapping[str, GaussianProcess]
+) -> dict[str, Floats]:
+    """Return |ln(predicted/computed)| of A, B and delta at each point left out.
+
+    The larger one of leaving out the point and of leaving out its alpha; the first and last alpha
+    are not left out, which would be extrapolation.
+    """
+    found = {}
+    for name, process in processes.items():
+        rows = rows_of(process, points)
+        alone = np.abs(leave_out_errors(process, np.arange(len(rows)))[0])
+        alpha = points.alpha[rows]
+        group = np.abs(leave_out_errors(process, alpha)[0])
+        ends = (alpha == alpha.min()) | (alpha == alpha.max())
+        error = np.where(ends, alone, np.maximum(alone, group))
+        if name == "distance":
+            # delta - 1 errs by this factor; near the touch and beyond, which the process does not
+            # have, delta is given within what is left of it
+            gap = points.distance - 1.0
+            full = np.abs(gap)
+            full[rows] = np.minimum(gap[rows] * np.expm1(error), 1e3)
+            found[name] = np.log1p(full / points.distance)
+        else:
+            full = np.zeros(len(points))
+            full[rows] = error
+            found[name] = full
+    return found
+
+
+def _edges(wanted: tuple[float, ...], values: Floats) -> tuple[float, ...]:
+    """Return edges whose ends are those of the values."""
+    low, high = float(values.min()), float(values.max())
+    return (low, *(edge for edge in wanted if low < edge < high), high)
+
+
+def _grid(g: tuple[float, ...], alpha: tuple[float, ...]) -> tuple[Floats, Floats]:
+    mesh = np.meshgrid(np.geomspace(g[0], g[1], _GRID), np.linspace(alpha[0], alpha[1], _GRID))
+    return mesh[0].ravel(), mesh[1].ravel()

@@ -1,0 +1,56 @@
+"""Tables of A, B and delta made from the means of the Gaussian processes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.contact.coordinates import QUANTITIES, coordinates
+from surrogate.contact.grid import Grid
+from surrogate.contact.process import ProcessModel
+from surrogate.contact.table import CellTable
+from surrogate.contact.wedge import wedge_functions, wedge_load
+
+__all__ = ["fit_table"]
+
+Floats = NDArray[np.float64]
+
+SHORT, PAST, STIFFENING = 56, 26, 48
+
+
+def fit_table(
+    process: ProcessModel, cells: tuple[int, int, int] = (SHORT, PAST, STIFFENING)
+) -> CellTable:
+    """Return the table of A, B and (delta - 1)/|x|^(7/4) over the domain of the processes.
+
+    Parameters
+    ----------
+    process : ProcessModel
+        The model that the table is to follow.
+    cells : tuple of int
+        Cells along g short of and past the touch, and along alpha.
+
+    Returns
+    -------
+    CellTable
+    """
+    limits = process.limits
+    lowest_touch = float(np.min(limits.log_touch(np.linspace(*limits.log_alpha, 101))))
+    beyond = max(limits.log_g[1] - lowest_touch, 0.5)
+    grid = Grid(limits.log_g[0], beyond, limits.log_alpha, limits.touch, *cells)
+    places, rows = grid.nodes()
+    log_g = grid.log_g_of(places[:, np.newaxis], rows)
+    # beyond the domain, which the last cells overlap, the processes go on smoothly
+    log_alpha = np.broadcast_to(rows, log_g.shape)
+    at = coordinates(log_g.ravel(), log_alpha.ravel(), limits.log_touch(log_alpha).ravel())
+    scales = wedge_functions(log_g, wedge_load(log_g))
+    values = {
+        name: scales[name] * np.exp(process.processes[name].predict_mean(at).reshape(log_g.shape))
+        for name in QUANTITIES
+    }
+    return CellTable(grid, {name: _sides(grid, value) for name, value in values.items()})
+
+
+def _sides(grid: Grid, values: Floats) -> tuple[Floats, Floats]:
+    single = values.astype(np.float32).astype(float)  # which halves the file
+    return single[: grid.short + 1], single[grid.short :]

@@ -1,0 +1,1 @@
+"""The solid, its mesh, its body and the contact; closed-form solutions to hold them against."""

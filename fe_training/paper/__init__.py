@@ -1,0 +1,1 @@
+"""The comparison with arXiv:2412.02021."""

@@ -1,0 +1,221 @@
+"""From a data set to the shipped models: fit, validation, files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fe_training.campaign.store import write_atomically
+from fe_training.fitting.fit import fit, write_fitted
+from fe_training.fitting.points import FitPoints, points_of
+from fe_training.fitting.touch import fit_touch
+from fe_training.validation.left_out import (
+    left_out_of_blend,
+    left_out_of_process,
+    left_out_stds,
+)
+from fe_training.validation.model_card import model_card
+from fe_training.validation.model_errors import (
+    Errors,
+    Validation,
+    by_strength,
+    calibration,
+    contact_errors,
+    finite_element_errors,
+    promises,
+    summary,
+    tables_of,
+    the_models,
+)
+from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.shipped import Fitted
+from surrogate.errors import InputError
+
+if TYPE_CHECKING:
+    from fe_training.campaign.dataset import Campaign
+
+__all__ = ["CARD", "make_surrogates", "validation"]
+
+CARD = "model-card.md"
+LARGEST_FILE = 100_000
+_RTOLS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
+_RANDOM_POINTS = 20_000
+
+
+def make_surrogates(
+    data: Campaign,
+    out: Path,
+    off_grid: Campaign | None,
+    single_mesh: bool,
+    say: Callable[[str], None],
+) -> Path:
+    """Fit the models to a data set, validate them, and write their file and their card.
+
+    Parameters
+    ----------
+    data : Campaign
+        The campaign.
+    out : Path
+        Where the files go.
+    off_grid : Campaign or None
+        Solutions that are not to be used in fitting.
+    single_mesh : bool
+        Whether points of one mesh level are taken too.
+    say : callable
+        Tells a line.
+
+    Returns
+    -------
+    Path
+        The file of the models.
+
+    Raises
+    ------
+    InputError
+        If there are too few points, or the file would be too large.
+    """
+    points = points_of(data, single_mesh)
+    wanted = len(data.design.alpha) * data.design.count
+    say(f"    {len(points)} of {wanted} points, {len(np.unique(points.alpha))} alphas")
+    fitted = fit(points, _about(data, points, wanted, single_mesh))
+    others = points_of(off_grid, single_mesh=True) if off_grid else None
+    found = validation(fitted, points, others)
+    fitted = replace(fitted, about={**fitted.about, "errors": _told(found)})
+    file = write_fitted(out, fitted)
+    size = file.stat().st_size
+    if size > LARGEST_FILE:
+        raise InputError(
+            f"{file} has {size} bytes, more than {LARGEST_FILE}; make the table coarser."
+        )
+    say(f"    {file}, {size / 1e3:.0f} kB, checksum beside it")
+    card = model_card(fitted, found)
+    write_atomically(out / CARD, card.encode())
+    say(f"4/4 validation: {out / CARD}")
+    return file
+
+
+def validation(fitted: Fitted, points: FitPoints, off_grid: FitPoints | None) -> Validation:
+    """Return the errors of fitted models.
+
+    Parameters
+    ----------
+    fitted : Fitted
+        The models.
+    points : FitPoints
+        What they were fitted to.
+    off_grid : FitPoints or None
+        Points that were not used.
+
+    Returns
+    -------
+    Validation
+    """
+    every = np.arange(len(points), dtype=float)
+    alone = left_out_of_process(fitted, points, every)
+    together = left_out_of_process(fitted, points, points.alpha)
+    models = the_models(fitted)
+    direct = {name: contact_errors(models[name], points) for name in ("eq13", "power-law")}
+    blend = left_out_of_blend(fitted, points, fit_touch(points))
+    one_out = {**direct, "gp": alone, "table": alone}
+    alpha_out = {**direct, "power-law": blend, "gp": together, "table": together}
+    shares = {"left out alone": _left_out_shares(fitted, points, every)}
+    shares["left out with their alpha"] = _left_out_shares(fitted, points, points.alpha)
+    bars = {"campaign": _bars(points)}
+    judged, errors = points, alpha_out
+    if off_grid is not None:
+        bars["off the grid"] = _bars(off_grid)
+        judged = off_grid
+        errors = {name: contact_errors(model, off_grid) for name, model in models.items()}
+        shares["off the grid"] = _off_grid_shares(fitted, off_grid)
+    slack = finite_element_errors(judged)["force"]
+    return Validation(
+        one_out=tables_of(fitted, points, one_out.__getitem__),
+        alpha_out=tables_of(fitted, points, alpha_out.__getitem__),
+        off_grid=tables_of(fitted, off_grid, errors.__getitem__) if off_grid is not None else None,
+        strengths={name: by_strength(judged, errors[name]) for name in models},
+        finite_elements=bars,
+        calibration=shares,
+        promises=promises(fitted, judged, _RTOLS, slack),
+        table_from_process=_table_from_process(fitted),
+    )
+
+
+def _bars(points: FitPoints) -> dict[str, Errors]:
+    return {name: summary(bars) for name, bars in finite_element_errors(points).items()}
+
+
+def _left_out_shares(
+    fitted: Fitted, points: FitPoints, groups: Any
+) -> dict[str, Mapping[str, float]]:
+    return {
+        name: calibration(error, std, np.zeros_like(std))
+        for name, (error, std) in left_out_stds(fitted, points, groups).items()
+    }
+
+
+def _off_grid_shares(fitted: Fitted, points: FitPoints) -> dict[str, Mapping[str, float]]:
+    process = fitted.models["gp"]
+    errors = contact_errors(process, points)
+    stds = process.stds(QUANTITIES, points.g, points.alpha)
+    own = finite_element_errors(points)
+    scatter = {name: np.sqrt(np.median(p.noise)) for name, p in fitted.processes.items()}
+    found: dict[str, Mapping[str, float]] = {}
+    for name, std in zip(QUANTITIES, stds, strict=True):
+        values = getattr(points, name)
+        bar = own[name]
+        if name != "distance":  # whose noise is that of delta - 1
+            bar = np.maximum(bar, scatter[name])
+        where = points.distance > 1.0 if name == "distance" else None
+        found[name] = calibration(errors[name], std / values, bar, where)
+    return found
+
+
+def _table_from_process(fitted: Fitted) -> dict[str, float]:
+    """Return the largest differences at random points of the domain."""
+    random = np.random.default_rng(0)
+    limits = fitted.limits
+    g = np.exp(random.uniform(*limits.log_g, _RANDOM_POINTS))
+    alpha = random.uniform(*limits.alpha, _RANDOM_POINTS)
+    table, process = (fitted.models[name].contact(QUANTITIES, g, alpha) for name in ("table", "gp"))
+    return {
+        name: float(np.max(np.abs(t / p - 1.0)))
+        for name, t, p in zip(QUANTITIES, table, process, strict=True)
+    }
+
+
+def _about(data: Campaign, points: FitPoints, wanted: int, single_mesh: bool) -> dict[str, Any]:
+    software = data.software[-1] if data.software else {}
+    return {
+        "provenance": {
+            "design_hash": data.design.hash,
+            "data_date": data.provenance["date"],
+            "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
+            "points": len(points),
+            "points_wanted": wanted,
+            "single_mesh": single_mesh,
+            "software": dict(software),
+        },
+        "touch_tip": "g_touch is that of the finite-element tip, with the notch of the design",
+    }
+
+
+def _told(found: Validation) -> dict[str, Any]:
+    """Return the errors over the whole domain, as they go into the file."""
+
+    def whole(tables: Mapping[str, Any] | None) -> Any:
+        if tables is None:
+            return None
+        return {
+            model: {name: asdict(errors) for name, errors in by_region["whole domain"].items()}
+            for model, by_region in tables.items()
+        }
+
+    return {
+        "left out with their alpha": whole(found.alpha_out),
+        "off the grid": whole(found.off_grid),
+    }

@@ -1,0 +1,1 @@
+"""Checks, records, files, figures: what every room uses, about nothing in particular."""

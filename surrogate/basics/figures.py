@@ -1,0 +1,199 @@
+"""What all figures have in common: sizes, colours, files; matplotlib is imported where needed."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from os import PathLike
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from surrogate.basics.checks import shown
+from surrogate.basics.files import file_name
+from surrogate.errors import InputError, WirecutError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "BLUE",
+    "ENDINGS",
+    "GREY",
+    "MEDIUM",
+    "RED",
+    "SINGLE_COLUMN",
+    "SMALL",
+    "WIDTHS",
+    "figure_width",
+    "legend_above",
+    "new_axes",
+    "new_figure",
+    "picture_file",
+    "require_axes",
+    "require_matplotlib",
+    "save_figure",
+    "write_svg",
+]
+
+SINGLE_COLUMN = (3.4, 2.9)
+"""Width and height of a figure that fills one column of a journal [inch]."""
+
+WIDTHS = {"single": 3.4, "double": 7.0}
+"""Width of a figure over one and over two columns [inch]."""
+
+SMALL, MEDIUM = 7.0, 8.0
+BLUE, RED, GREY = "#1f5fa8", "#c0392b", "#555555"
+
+ENDINGS = (".png", ".pdf", ".svg")
+
+# Text that journals can edit, and nothing that changes from run to run.
+_FILE_STYLE: Any = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "wirecut"}
+_METADATA: dict[str, dict[str, Any]] = {
+    ".pdf": {"CreationDate": None, "ModDate": None},
+    ".svg": {"Date": None},
+    ".png": {},
+}
+
+
+def require_matplotlib() -> None:
+    """Raise a `WirecutError` with the remedy unless matplotlib is installed.
+
+    Examples
+    --------
+    >>> require_matplotlib()
+    """
+    if find_spec("matplotlib") is None:
+        raise WirecutError(
+            "drawing needs matplotlib; install it with: pip install 'wirecut[plot]'."
+        )
+
+
+def picture_file(file: str | PathLike[str]) -> str:
+    """Return the name of a picture's file, whose ending chooses the format.
+
+    Raises
+    ------
+    InputError
+        If it is no path, or ends otherwise than in .png, .pdf or .svg.
+
+    Examples
+    --------
+    >>> picture_file("map.doc")
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: map.doc has no picture's ending; choose .png, .pdf or .svg.
+    """
+    name = file_name(file)
+    if PurePath(name).suffix.lower() not in ENDINGS:
+        raise InputError(f"{name} has no picture's ending; choose .png, .pdf or .svg.")
+    return name
+
+
+def new_figure(size: tuple[float, float]) -> Figure:
+    """Return an empty figure of a size [inch] that no window knows of."""
+    require_matplotlib()
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=size, layout="constrained")
+
+
+def new_axes(size: tuple[float, float]) -> Axes:
+    """Return the axes of a new figure of a size [inch] that notebooks show."""
+    require_matplotlib()
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(figsize=size, layout="constrained")[1]
+
+
+def require_axes(ax: object) -> Axes:
+    """Return axes of matplotlib, or raise an `InputError` that says what is one.
+
+    Examples
+    --------
+    >>> require_axes("left")
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: ax must be axes of matplotlib, but ax = 'left' (str); give for \
+instance figure.add_subplot(), or None for a new figure.
+    """
+    require_matplotlib()
+    from matplotlib.axes import Axes
+
+    if isinstance(ax, Axes):
+        return ax
+    raise InputError(
+        f"ax must be axes of matplotlib, but ax = {shown(ax)} ({type(ax).__name__}); give for "
+        "instance figure.add_subplot(), or None for a new figure."
+    )
+
+
+def figure_width(width: object) -> float:
+    """Return the width of a figure [inch] by its name.
+
+    Examples
+    --------
+    >>> figure_width("double")
+    7.0
+    """
+    if isinstance(width, str) and width in WIDTHS:
+        return WIDTHS[width]
+    raise InputError(f"width must be 'single' or 'double', but is {shown(width)}; choose one.")
+
+
+def save_figure(figure: Figure, file: str | PathLike[str]) -> None:
+    """Write a figure: equal figures give equal files, with text that stays text.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    file : str or path-like
+        Where to write; the ending chooses the format (.png, .pdf, .svg).
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or the file cannot be written.
+    """
+    name = picture_file(file)
+    try:
+        _write(figure, name, PurePath(name).suffix.lower())
+    except OSError as error:
+        raise InputError(f"{name} cannot be written ({error.strerror}); choose another.") from None
+
+
+def write_svg(figure: Figure, stream: Any) -> None:
+    """Write a figure as SVG into an open stream of text."""
+    _write(figure, stream, ".svg")
+
+
+def _write(figure: Figure, file: Any, ending: str) -> None:
+    from matplotlib import rc_context
+
+    with rc_context(_FILE_STYLE):
+        figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
+
+
+LARGEST_SHOWN = 1e100
+"""Ticks go decades beyond the ends of an axis, and must stay floating-point numbers."""
+
+
+def legend_above(
+    ax: Axes, columns: int, handles: list[Any] | None = None, left: float = -0.1
+) -> None:
+    """Put the legend above the axes, where no data can be, from a fraction of their width on."""
+    if handles is None:
+        handles = ax.get_legend_handles_labels()[0]
+    if not handles:
+        return
+    ax.legend(
+        handles=handles,
+        loc="lower left",
+        bbox_to_anchor=(left, 1.0),
+        ncols=columns,
+        fontsize=SMALL,
+        frameon=False,
+        handlelength=1.6,
+        columnspacing=1.0,
+        borderaxespad=0.2,
+    )

@@ -1,0 +1,244 @@
+"""Files: where the shipped ones are, archives that may be damaged, tables, checksums."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from os import PathLike
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.basics.checks import shown
+from surrogate.errors import InputError
+
+__all__ = [
+    "checksum_line",
+    "column_name",
+    "file_name",
+    "model_file",
+    "models_folder",
+    "read_archive",
+    "write_csv",
+]
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def file_name(path: object) -> str:
+    """Return a path as text.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A file.
+
+    Returns
+    -------
+    str
+        Its name, with folders as given.
+
+    Raises
+    ------
+    InputError
+        If it is no path.
+
+    Examples
+    --------
+    >>> file_name(Path("cuts.csv"))
+    'cuts.csv'
+    """
+    try:
+        return os.fsdecode(path)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(
+            f"a file must be named by text or a path, but is {shown(path)} "
+            f"({type(path).__name__}); give the path of a file."
+        ) from None
+
+
+@cache
+def models_folder() -> Path:
+    """Return the folder of shipped data and models.
+
+    A wheel carries it inside the package; a checkout, and an editable install of it, beside
+    the package.
+
+    Returns
+    -------
+    pathlib.Path
+        The folder `models`.
+
+    Raises
+    ------
+    InputError
+        If the installation lacks it.
+
+    Examples
+    --------
+    >>> models_folder().name
+    'models'
+    """
+    for folder in (_PACKAGE / "models", _PACKAGE.parent / "models"):
+        if folder.is_dir():
+            return folder
+    raise InputError(
+        f"the folder 'models' is neither in {_PACKAGE} nor beside it, "
+        "the installation is incomplete; install wirecut again."
+    )
+
+
+def model_file(name: str) -> Path:
+    """Return the path of one shipped file.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file, without folders.
+
+    Returns
+    -------
+    pathlib.Path
+        The file's path.
+
+    Raises
+    ------
+    InputError
+        If no file of this name is shipped.
+
+    Examples
+    --------
+    >>> model_file("paam-wire-cutting.csv").name
+    'paam-wire-cutting.csv'
+    """
+    folder = models_folder()
+    shipped = {path.name: path for path in folder.iterdir() if path.is_file()}
+    if name not in shipped:
+        raise InputError(
+            f"no file {name!r} is shipped; choose one of {', '.join(sorted(shipped))}."
+        )
+    return shipped[name]
+
+
+def opened(file: str) -> BinaryIO:
+    try:
+        return open(file, "rb")
+    except OSError as error:
+        raise InputError(
+            f"{file} cannot be read ({error.strerror}); give the path of a file."
+        ) from None
+    except ValueError as error:
+        raise InputError(
+            f"{file!r} is not a file name ({error}); give the path of a file."
+        ) from None
+
+
+def read_archive(content: bytes) -> dict[str, NDArray[Any]]:
+    """Return the arrays in the content of an npz file by their names; nothing is unpickled.
+
+    Parameters
+    ----------
+    content : bytes
+        The whole file.
+
+    Returns
+    -------
+    dict of str to ndarray
+        The arrays.
+
+    Raises
+    ------
+    ValueError
+        If it is no such file, or damaged, whatever numpy and zipfile make of that.
+
+    Examples
+    --------
+    >>> buffer = io.BytesIO()
+    >>> np.savez(buffer, x=np.arange(3))
+    >>> read_archive(buffer.getvalue())
+    {'x': array([0, 1, 2])}
+    >>> read_archive(b"x")
+    Traceback (most recent call last):
+        ...
+    ValueError: no archive of arrays: ...
+    """
+    try:
+        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+            return dict(archive.items())
+    except Exception as error:  # numpy and zipfile raise a dozen kinds, tokenize's among them
+        raise ValueError(f"no archive of arrays: {error}") from None
+
+
+def column_name(quantity: str, unit: str) -> str:
+    """Return the name of a column, as the library's own files spell it.
+
+    Examples
+    --------
+    >>> column_name("toughness", "J/m^2"), column_name("g", "")
+    ('toughness_J_per_m2', 'g')
+    """
+    spelled = unit.replace("/", "_per_").replace("^", "").replace(" ", "_")
+    return f"{quantity}_{spelled}" if spelled else quantity
+
+
+def write_csv(
+    file: str | PathLike[str],
+    columns: Mapping[tuple[str, str], Any],
+    about: Iterable[str] = (),
+) -> None:
+    """Write columns of equal length to a CSV file, each number with all its digits.
+
+    Parameters
+    ----------
+    file : str or path-like
+        Where to write; an existing file is replaced.
+    columns : mapping of (quantity, unit) to array_like
+        One column each; numbers and words, flattened, broadcast together.
+    about : iterable of str, optional
+        Lines of comment above the header.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    names = [column_name(*key) for key in columns]
+    arrays = [np.ravel(each) for each in np.broadcast_arrays(*columns.values())]
+    lines = [*(f"# {line}" for line in about), ",".join(map(_cell, names))]
+    lines += _rows(arrays)
+    path = file_name(file)
+    try:
+        with open(path, "w", encoding="utf-8", newline="\n") as stream:
+            stream.write("\n".join(lines) + "\n")
+    except OSError as error:
+        raise InputError(f"{path} cannot be written ({error.strerror}); choose another.") from None
+
+
+def _rows(arrays: Sequence[Any]) -> list[str]:
+    cells = [[_cell(value) for value in array.tolist()] for array in arrays]
+    return [",".join(row) for row in zip(*cells, strict=True)]
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    text = value if isinstance(value, str) else repr(value)
+    if any(mark in text for mark in ',"\n'):
+        return '"' + text.replace('"', '""') + '"'
+    return text
+
+
+def checksum_line(name: str, content: bytes) -> bytes:
+    """Return the line that goes beside a file: its SHA-256, as ``sha256sum --check`` reads it.
+
+    Examples
+    --------
+    >>> checksum_line("surrogates.npz", b"")[-16:]
+    b' surrogates.npz\\n'
+    """
+    return f"{hashlib.sha256(content).hexdigest()}  {name}\n".encode()

@@ -1,0 +1,1 @@
+"""Which model answers: by its name, or the cheapest one that is exact enough."""

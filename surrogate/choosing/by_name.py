@@ -1,0 +1,51 @@
+"""The models by their names, and the name that stands for the cheapest exact enough one."""
+
+from __future__ import annotations
+
+from surrogate.basics.checks import shown
+from surrogate.contact.base import ForceModel
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.errors import UnknownModelError
+
+__all__ = ["AUTO", "FITTED_NAMES", "force_model", "is_auto"]
+
+AUTO = "auto"
+"""The model that stands for the cheapest one that is exact enough."""
+
+FITTED_NAMES = ("power-law", "table", "gp")
+"""The models fitted to finite-element solutions."""
+
+
+def is_auto(name: object) -> bool:
+    """Return whether a name is the one that stands for the cheapest exact enough model.
+
+    Examples
+    --------
+    >>> is_auto("auto"), is_auto("table")
+    (True, False)
+    """
+    return isinstance(name, str) and name == AUTO
+
+
+def force_model(name: object, argument: str = "model") -> ForceModel:
+    """Return the model of that name, which is not "auto".
+
+    Raises
+    ------
+    UnknownModelError
+        If there is none; the message lists those that there are.
+    InputError
+        If the model is a fitted one and its file is missing or damaged.
+    """
+    if isinstance(name, str) and name in FORCE_MODELS:
+        return FORCE_MODELS[name]
+    if isinstance(name, str) and name in FITTED_NAMES:
+        from surrogate.contact.shipped import (
+            shipped,  # which loads what the closed forms do not need
+        )
+
+        return shipped().models[name]
+    raise UnknownModelError(
+        f"{argument} must be the name of a model, but {argument} = {shown(name)}; "
+        f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES, AUTO))}."
+    )

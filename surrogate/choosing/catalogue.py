@@ -1,0 +1,185 @@
+"""What models there are, where they hold, what they cost and how far they may be off."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+from surrogate.basics.files import models_folder
+from surrogate.basics.records import Record
+from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.contact.base import ForceModel
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.shipped import shipped
+from surrogate.errors import InputError
+
+__all__ = [
+    "BULK",
+    "COSTS_FILE",
+    "COSTS_SCHEMA",
+    "ONE",
+    "ModelInfo",
+    "by_cost",
+    "models",
+    "read_costs",
+]
+
+COSTS_FILE = "model-costs.json"
+"""The measured costs, written by scripts/bench-tradeoff."""
+
+COSTS_SCHEMA = "wirecut-model-costs-1"
+
+BULK, ONE = "bulk_ns", "scalar_us"
+
+Model = TypeVar("Model", bound=ForceModel)
+
+
+def read_costs() -> dict[str, dict[str, float]]:
+    """Return the measured costs by model; none where they are not shipped.
+
+    Returns
+    -------
+    dict of str to dict
+        For each model "bulk_ns", the time for each of A, B and delta at each of many points [ns],
+        and "scalar_us", that of one number by itself [us].
+
+    Raises
+    ------
+    InputError
+        If the file is damaged.
+
+    Examples
+    --------
+    >>> costs = read_costs()
+    >>> costs["eq13"]["bulk_ns"] < costs["gp"]["bulk_ns"]
+    True
+    """
+    return _read(models_folder())
+
+
+def by_cost(models: Iterable[Model]) -> list[Model]:
+    """Return models in rising order of their cost at many points; those not measured are last."""
+    costs = read_costs()
+    return sorted(models, key=lambda model: costs.get(model.name, {}).get(BULK, math.inf))
+
+
+@cache
+def _read(folder: Path) -> dict[str, dict[str, float]]:
+    file = folder / COSTS_FILE
+    if not file.is_file():
+        return {}
+    try:
+        content: Any = json.loads(file.read_text(encoding="utf-8"))
+        if content["schema"] != COSTS_SCHEMA:
+            raise ValueError(f"the schema is {content['schema']!r}")
+        return {
+            name: {key: _positive(each[key]) for key in (BULK, ONE)}
+            for name, each in content["models"].items()
+        }
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InputError(
+            f"{file} must hold the measured costs of the models, but {error!r} was met; "
+            "install wirecut again, or make it anew with scripts/bench-tradeoff."
+        ) from None
+
+
+def _positive(value: Any) -> float:
+    number = float(value)
+    if not 0.0 < number < math.inf:
+        raise ValueError(f"{value} is no time")
+    return number
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ModelInfo(Record):
+    """A model as `models` lists it.
+
+    Parameters
+    ----------
+    name : str
+        What `model` is to be, in `cutting_force` and elsewhere.
+    equation : str
+        What it evaluates.
+    domain : str
+        Where it holds.
+    available : bool
+        Whether this installation has it: the fitted models need their file.
+    cost : float or None
+        Measured time for each of A, B and delta at each of many points [ns]; None if not measured.
+    latency : float or None
+        Measured time of one number by itself [us]; None if not measured.
+    error : float or None
+        Measured bound of the relative error of A and B over the domain [-]; None if not measured.
+
+    Examples
+    --------
+    >>> print(models()[0].name)
+    eq13
+    """
+
+    name: str
+    equation: str
+    domain: str
+    available: bool
+    cost: float | None
+    latency: float | None
+    error: float | None
+
+
+def models() -> tuple[ModelInfo, ...]:
+    """Return all models with domain, cost and error: closed forms first, then the fitted ones.
+
+    Returns
+    -------
+    tuple of ModelInfo
+        One for each name that `cutting_force` takes, but "auto", which chooses among those with
+        an error.
+
+    Raises
+    ------
+    InputError
+        If a shipped file is damaged.
+
+    Notes
+    -----
+    Costs are those of the machine that measured them, to be compared with each other.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (9) to (15), for the closed forms.
+
+    Examples
+    --------
+    >>> [model.name for model in models() if model.name.startswith("eq")]
+    ['eq13', 'eq9']
+    """
+    try:
+        fitted = shipped()
+    except InputError:
+        if (models_folder() / "surrogates.npz").exists():
+            raise
+        fitted = None
+    costs = read_costs()
+    known = fitted.models if fitted else {}
+    bounds = fitted.bounds if fitted else None
+    return tuple(
+        ModelInfo(
+            name,
+            model.equation if model else "fitted to finite elements",
+            model.domain if model else "made by regen-surrogate",
+            model is not None,
+            costs.get(name, {}).get(BULK),
+            costs.get(name, {}).get(ONE),
+            bounds.of_force(name) if bounds and name in bounds.errors else None,
+        )
+        for name, model in _by_name({**FORCE_MODELS, **known}).items()
+    )
+
+
+def _by_name(known: Mapping[str, ForceModel]) -> dict[str, ForceModel | None]:
+    return {name: known.get(name) for name in (*FORCE_MODELS, *FITTED_NAMES)}

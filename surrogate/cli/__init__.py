@@ -1,0 +1,1 @@
+"""The command `wirecut`, a module for each subcommand."""

@@ -1,0 +1,90 @@
+"""What the subcommands share: quantities with units, common options, tables and JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from surrogate.errors import InputError
+from surrogate.reading.units import NUMBER, Dimension, parse_quantity
+
+__all__ = ["wire_rows"]
+
+Record: TypeAlias = "dict[str, Any]"
+
+
+def wire_rows(**columns: Any) -> list[Record]:
+    """Return one record for each wire out of numbers and arrays that broadcast together."""
+    arrays = np.broadcast_arrays(*map(np.atleast_1d, columns.values()))
+    return [
+        dict(zip(columns, values, strict=True))
+        for values in zip(*(array.tolist() for array in arrays), strict=True)
+    ]
+
+
+def quantity(dimension: Dimension) -> Callable[[str], float]:
+    def parse(text: str) -> float:
+        try:
+            return parse_quantity(text, dimension)
+        except InputError as error:
+            raise argparse.ArgumentTypeError(str(error).rstrip(".")) from None
+
+    return parse
+
+
+def add_friction_and_stiffening(
+    command: argparse.ArgumentParser, friction: float | None, stiffening: float | None
+) -> None:
+    for option, symbol, default, shown in (
+        ("--friction-coefficient", "XI", friction, "friction coefficient xi (default 0)"),
+        ("--stiffening-exponent", "ALPHA", stiffening, "Ogden exponent alpha (default 2)"),
+    ):
+        command.add_argument(
+            option, type=quantity(NUMBER), default=default, metavar=symbol, help=shown
+        )
+
+
+def add_model_option(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--model",
+        default="auto",
+        help="force model, see 'wirecut models' (default auto: the cheapest that is exact enough)",
+    )
+    command.add_argument(
+        "--rtol",
+        type=quantity(NUMBER),
+        default=0.02,
+        metavar="ERROR",
+        help="relative error that will do with --model auto (default 0.02)",
+    )
+
+
+def add_extrapolate_option(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--extrapolate",
+        action="store_true",
+        help="continue a fitted model outside its domain by its asymptotes",
+    )
+
+
+def print_record(
+    options: argparse.Namespace, record: Record, text: Callable[[Record], str]
+) -> None:
+    if options.json:
+        print(json.dumps(_finite(record), indent=2, allow_nan=False))
+        return
+    print(text(record))
+
+
+def _finite(value: Any) -> Any:
+    """Replace nan and infinity, which JSON does not know, by null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

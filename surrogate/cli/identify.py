@@ -1,0 +1,165 @@
+"""The command `wirecut identify`: its options, and what else it may be told than forces."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any
+
+from surrogate.basics.files import model_file
+from surrogate.cli.common import (
+    add_friction_and_stiffening,
+    add_model_option,
+    print_record,
+    quantity,
+)
+from surrogate.cli.identification_text import identification_record, identification_text
+from surrogate.errors import InputError
+from surrogate.identification.fit import identify
+from surrogate.reading.material import Material, read_material
+from surrogate.reading.measurements import read_measurements
+from surrogate.reading.units import (
+    ENERGY_DENSITY,
+    LENGTH,
+    NUMBER,
+    STRESS,
+    TOUGHNESS,
+    Dimension,
+)
+
+__all__ = ["add_fact_options", "facts"]
+
+Parser = Callable[[Dimension], Callable[[str], float]]
+
+
+def add_fact_options(command: argparse.ArgumentParser, quantity: Parser) -> None:
+    """Add bounds, values, priors and the range of further wires."""
+    add = command.add_argument
+    add(
+        "--toughness-max",
+        type=quantity(TOUGHNESS),
+        metavar="GAMMA",
+        help="bound of Gamma_o, for instance the toughness of pure shear",
+    )
+    add(
+        "--wear-strength",
+        type=quantity(STRESS),
+        metavar="TAU_W",
+        help="tau_w where it is known, for instance the work of fracture",
+    )
+    for name, dimension in (("toughness", TOUGHNESS), ("wear-strength", STRESS)):
+        add(
+            f"--{name}-prior",
+            type=quantity(dimension),
+            nargs=2,
+            metavar=("MEAN", "STD"),
+            help=f"what else is known of the {name.replace('-', ' ')}; needs forces with errors",
+        )
+    add(
+        "--further-radii",
+        type=quantity(LENGTH),
+        nargs=2,
+        metavar=("SMALLEST", "LARGEST"),
+        help="radii of further wires to choose from (default 1/5 to 5 times those cut with)",
+    )
+
+
+def facts(options: argparse.Namespace) -> dict[str, Any]:
+    """Return what was given, by the names of `identify`."""
+    names = ("toughness_max", "wear_strength", "toughness_prior", "wear_strength_prior")
+    return {name: getattr(options, name) for name in (*names, "further_radii")}
+
+
+def add_identify_options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    source = command.add_mutually_exclusive_group(required=True)
+    source.add_argument("file", nargs="?", metavar="FILE", help="table of measurements (CSV)")
+    source.add_argument(
+        "--example", action="store_true", help="use the shipped gel of the paper (PAAm)"
+    )
+    add("--material", metavar="FILE", help="properties of the gel (JSON), instead of options")
+    add("--shear-modulus", type=quantity(STRESS), metavar="MU", help="shear modulus mu")
+    add_friction_and_stiffening(command, friction=None, stiffening=None)
+    add(
+        "--pure-shear-toughness",
+        type=quantity(TOUGHNESS),
+        metavar="GAMMA",
+        help="toughness Gamma of a fracture test, to compare with",
+    )
+    add(
+        "--work-of-fracture",
+        type=quantity(ENERGY_DENSITY),
+        metavar="W_F",
+        help="energy density at tensile failure W_f, to compare with",
+    )
+    add_model_option(command)
+    add(
+        "--confidence",
+        type=quantity(NUMBER),
+        default=0.95,
+        metavar="P",
+        help="probability of the intervals (default 0.95)",
+    )
+    add_fact_options(command, quantity)
+    add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
+    add("--csv", metavar="TABLE", help="write the fitted line and its band")
+
+
+def run_identify(options: argparse.Namespace) -> None:
+    file = model_file("paam-wire-cutting.csv") if options.example else options.file
+    measurements = read_measurements(file)
+    material = _material(options)
+    if material.shear_modulus is None:
+        raise InputError("the shear modulus is missing; give --shear-modulus or --material.")
+    fit = identify(
+        measurements.wire_radius,
+        measurements.force,
+        material.shear_modulus,
+        friction_coefficient=_given(material.friction_coefficient, 0.0),
+        stiffening_exponent=_given(material.stiffening_exponent, 2.0),
+        force_std=measurements.force_std,
+        model=options.model,
+        rtol=options.rtol,
+        confidence=options.confidence,
+        **facts(options),
+    )
+    origin = "read from the published line" if options.example else "measured"
+    if options.plot:
+        from surrogate.identification.figure import save_identification
+
+        save_identification(
+            fit,
+            options.plot,
+            pure_shear_toughness=material.pure_shear_toughness,
+            force_label=origin,
+        )
+    if options.csv:
+        from surrogate.identification.curves import write_curve
+
+        write_curve(fit, options.csv)
+    record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
+    record |= identification_record(fit, material)
+    print_record(options, record, identification_text)
+
+
+def _material(options: argparse.Namespace) -> Material:
+    """Return the properties of the material's file, replaced by those that options give."""
+    material = Material()
+    if options.example:
+        material = read_material(model_file("paam-material.json"))
+    if options.material:
+        material = read_material(options.material)
+    given = {
+        field.name: value
+        for field in fields(Material)
+        if (value := getattr(options, field.name, None)) is not None
+    }
+    # A value from the command line comes without the standard error of the one it replaces.
+    unknown = {f"{name}_std": None for name in given if hasattr(material, f"{name}_std")}
+    return replace(material, **unknown, **given)
+
+
+def _given(value: float | None, default: float) -> float:
+    return default if value is None else value

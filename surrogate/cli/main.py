@@ -1,0 +1,176 @@
+# PYTHON_ARGCOMPLETE_OK
+"""The command `wirecut`: its subcommands, their descriptions and examples."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from surrogate.basics.command import OneLineParser, complete, run_command
+from surrogate.cli import map as cli_map
+from surrogate.cli.common import print_record, quantity
+from surrogate.cli.force import (
+    add_force_options,
+    add_regime_options,
+    run_force,
+    run_models,
+    run_regime,
+)
+from surrogate.cli.identify import add_identify_options, run_identify
+
+_UNITS = """\
+Quantities carry their unit, without a space or in quotes: 0.2mm, "0.2 mm", 7.75kPa, 1.6J/m2.
+A number alone is in SI units (m, Pa, J/m2)."""
+
+_DESCRIPTIONS = {
+    "wirecut": "Wire cutting of soft solids: forces, toughness and regimes (arXiv:2412.02021).",
+    "force": "Steady cutting force per sample thickness of each wire, and what it is made of.",
+    "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
+    "regime": "Which term dominates the force of each wire, and where the wire cuts.",
+    "map": cli_map.DESCRIPTION,
+    "models": "The force models that --model accepts.",
+    "doctor": "What is installed, whether the shipped files are whole, and a self-test.",
+}
+
+_EXAMPLES = {
+    "wirecut": """\
+example:
+  wirecut identify --example
+""",
+    "force": f"""\
+{_UNITS}
+
+example:
+  wirecut force --shear-modulus 685Pa --toughness 1.6J/m2 \\
+    --wear-strength 7.75kPa --wire-radius 0.2mm 0.4mm
+""",
+    "identify": f"""\
+FILE is a table with commas, whose header names quantity and unit, for instance cuts.csv:
+
+  wire_radius_mm,force_per_thickness_N_per_m,force_std_N_per_m
+  0.1,4.7,0.3
+  0.2,7.9,0.4
+  0.4,13.9,0.4
+  0.5,17.2,0.5
+
+wire_diameter_mm is understood as well; the last column is optional. The friction coefficient
+cannot be identified from such data: give it, or it is taken to be 0.
+{_UNITS}
+
+examples:
+  wirecut identify --example
+  wirecut identify cuts.csv --shear-modulus 685Pa --friction-coefficient 0.05
+""",
+    "regime": f"""\
+{_UNITS}
+
+example:
+  wirecut regime --shear-modulus 685Pa --toughness 1.6J/m2 \\
+    --wear-strength 7.75kPa --wire-diameter 50um 0.5mm
+""",
+    "map": f"{_UNITS}\n\n{cli_map.EXAMPLES}",
+    "models": """\
+example:
+  wirecut models --json
+""",
+    "doctor": """\
+example:
+  wirecut doctor
+""",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The arguments after the command's name; those of the process by default.
+
+    Returns
+    -------
+    int
+        0, or 2 after bad input, with the reason in one line on the standard error stream.
+
+    Examples
+    --------
+    >>> main(["force", "--shear-modulus", "685Pa", "--toughness", "2 J/m2", "--wire-radius", "1mm"])
+    Model eq13, Eq. (13)
+    R_w [mm]  g [-]  F_ss/T [N/m]  cleavage  friction  wear  model  error up to  model holds
+    1         2.92   2             2         0         0     eq13   0 %          yes
+    0
+    """
+    return run_command("wirecut", lambda: _run(arguments))
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    parser = _parser()
+    complete(parser)
+    options = parser.parse_args(arguments)
+    return options.run(options) or 0
+
+
+class _Parser(OneLineParser):
+    """The parser of one command, with its description and examples."""
+
+    def __init__(self, **options: Any) -> None:
+        name = options["prog"].split()[-1]
+        super().__init__(
+            description=_DESCRIPTIONS[name],
+            epilog=_EXAMPLES[name],
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+            **options,
+        )
+
+
+class _Version(argparse.Action):
+    """Prints the versions, which takes a look at every shipped file."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from surrogate.cli.doctor import version_text
+
+        print(version_text())
+        parser.exit()
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="wirecut")
+    parser.add_argument("--version", action=_Version, nargs=0, help="versions of code and data")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
+    for name, add_options, run in (
+        ("force", add_force_options, run_force),
+        ("identify", add_identify_options, run_identify),
+        ("regime", add_regime_options, run_regime),
+        ("map", lambda command: cli_map.add_options(command, quantity), run_map),
+        ("models", lambda command: None, run_models),
+        ("doctor", lambda command: None, run_doctor),
+    ):
+        command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
+        add_options(command)
+        command.add_argument(
+            "--json",
+            action="store_true",
+            help="print JSON in SI units, null for what is unknown or infinite",
+        )
+        command.set_defaults(run=run)
+    return parser
+
+
+def run_map(options: argparse.Namespace) -> None:
+    print_record(options, cli_map.map_record(options), cli_map.map_text)
+
+
+def run_doctor(options: argparse.Namespace) -> int:
+    from surrogate.cli.doctor import doctor_record, doctor_text
+
+    record = doctor_record()
+    print_record(options, record, doctor_text)
+    return 0 if record["healthy"] else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

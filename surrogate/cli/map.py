@@ -1,0 +1,271 @@
+"""The command `wirecut map`: its options, and what it prints."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from textwrap import fill
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from surrogate.basics.files import model_file
+from surrogate.basics.records import number, table
+from surrogate.cutting.regimes import DOMINANT_SHARE
+from surrogate.errors import InputError
+from surrogate.identification.fit import identify
+from surrogate.maps.axes import COORDINATES, coordinate
+from surrogate.maps.make import RegimeMap, regime_map
+from surrogate.maps.points import MapPoints
+from surrogate.maps.tables import map_summary
+from surrogate.reading.material import read_material
+from surrogate.reading.measurements import read_measurements
+from surrogate.reading.units import (
+    LENGTH,
+    NUMBER,
+    STRESS,
+    TOUGHNESS,
+    Dimension,
+    parse_quantity,
+)
+
+__all__ = ["DESCRIPTION", "EXAMPLES", "PRESETS", "Preset", "add_options", "map_record", "map_text"]
+
+
+@dataclass(frozen=True)
+class Preset:
+    """What a map is drawn over.
+
+    Parameters
+    ----------
+    words : str
+        What it shows.
+    x, y : str
+        Coordinates.
+    ranges : pair of pairs of float
+        Of x and of y [SI].
+    fixed : mapping of str to float
+        What else is given [SI].
+    example : bool
+        Whether the shipped experiment belongs on it.
+    """
+
+    words: str
+    x: str
+    y: str
+    ranges: tuple[tuple[float, float], tuple[float, float]]
+    fixed: Mapping[str, float]
+    example: bool = False
+
+
+def _known(**values: float) -> Mapping[str, float]:
+    return MappingProxyType(values)
+
+
+PRESETS: Mapping[str, Preset] = MappingProxyType(
+    {
+        "lengths": Preset(
+            "the wire's radius beside both lengths of the material, xi = 0.1",
+            "R_w/l_e",
+            "R_w/l_w",
+            ((1e-4, 1e2), (1e-2, 1e2)),
+            _known(friction_coefficient=0.1),
+        ),
+        "groups": Preset(
+            "the groups of the finite-element problem and of its friction, xi = 0.1",
+            "g",
+            "tau_w/(xi mu)",
+            ((1e-2, 1e2), (1e-2, 1e2)),
+            _known(friction_coefficient=0.1),
+        ),
+        "friction": Preset(
+            "friction beside toughness for a solid with tau_w = mu/10",
+            "R_w/l_e",
+            "friction_coefficient",
+            ((1e-2, 1e2), (1e-2, 1e1)),
+            MappingProxyType({"tau_w/mu": 0.1}),
+        ),
+        "gel": Preset(
+            "wires and toughnesses for a gel with the stiffness and wear of the paper's",
+            "wire_radius",
+            "toughness",
+            ((1e-5, 1e-2), (5e-2, 5e1)),
+            _known(shear_modulus=685.0, wear_strength=7750.0),
+            example=True,
+        ),
+    }
+)
+"""Every preset by its name."""
+
+DESCRIPTION = "Regime map over two quantities or dimensionless groups: figure, tables, boundaries."
+
+_DIMENSIONS: Mapping[str, Dimension] = {
+    "m": LENGTH,
+    "Pa": STRESS,
+    "J/m^2": TOUGHNESS,
+    "": NUMBER,
+}
+
+_NAMES = fill(
+    f"NAME is a quantity or group: {', '.join(COORDINATES)}; or a letter: mu, Gamma_o, R_w, xi, "
+    "tau_w, alpha. What a map needs and is not given is solved for.",
+    96,
+    break_on_hyphens=False,
+)
+
+EXAMPLES = f"""\
+{_NAMES}
+
+presets:
+{table(("", "", ""), [("", name, preset.words) for name, preset in PRESETS.items()])[1:]}
+
+examples:
+  wirecut map --preset gel --out map.pdf
+  wirecut map --x R_w 10um 10mm --y tau_w 1kPa 100kPa --fix mu=685Pa Gamma_o=1.6J/m2 --csv map.csv
+"""
+
+
+def add_options(
+    command: argparse.ArgumentParser, quantity: Callable[[Dimension], Callable[[str], float]]
+) -> None:
+    """Add the options of the command to its parser."""
+    add = command.add_argument
+    add("--preset", choices=PRESETS, metavar="PRESET", help="a map that is often wanted, see below")
+    for axis in "xy":
+        add(f"--{axis}", nargs=3, metavar=("NAME", "LOW", "HIGH"), help=f"what {axis} shows")
+    add("--linear", nargs="+", choices="xy", default=[], help="axes with a linear scale")
+    add("--fix", nargs="+", default=[], metavar="NAME=VALUE", help="what else is given")
+    add("--model", default="eq13", help="force model, see 'wirecut models' (default eq13)")
+    for option, metavar, default, words in (
+        ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
+        ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
+        ("--rtol", "ERROR", 0.02, "error that will do with --model auto (default 0.02)"),
+    ):
+        add(option, type=quantity(NUMBER), default=default, metavar=metavar, help=words)
+    add("--nodes", type=int, default=201, metavar="N", help="nodes of each axis (default 201)")
+    add("--limits", nargs="+", default=[], metavar="MODEL", help="limits whose end is drawn")
+    add("--error-of", metavar="MODEL", help="show this model's error beside the map's model")
+    add("--no-contact", action="store_true", help="leave out where the wire touches the tip")
+    add("--width", choices=("single", "double"), default="single", help="columns of a journal")
+    add("--out", metavar="PICTURE", help="draw the map (.pdf, .svg, .png)")
+    add("--csv", metavar="FILE", help="write the map, one line a node")
+    add("--boundaries-csv", metavar="FILE", help="write the boundaries, one line a point")
+
+
+def map_record(options: argparse.Namespace) -> dict[str, Any]:
+    """Make the map, write what is wanted, and return what to print."""
+    made = run_map(options)
+    preset = PRESETS.get(options.preset)
+    if options.out:
+        from surrogate.maps.figure import save_regime_map
+
+        save_regime_map(
+            made,
+            options.out,
+            _example() if preset is not None and preset.example else (),
+            limits=options.limits,
+            contact=not options.no_contact,
+            error_of=options.error_of,
+            width=options.width,
+        )
+    if options.csv:
+        made.to_csv(options.csv)
+    if options.boundaries_csv:
+        made.boundaries_to_csv(options.boundaries_csv)
+    files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
+    return {**map_summary(made), "files": files}
+
+
+def map_text(made: dict[str, Any]) -> str:
+    """Return what `map_record` says, for people."""
+    x, y = made["x"], made["y"]
+    fixed = ", ".join(
+        f"{n} = {number(v)} {COORDINATES[n].unit}".rstrip() for n, v in made["fixed"].items()
+    )
+    head = (
+        f"Map over {_range(x)} and {_range(y)}, model {made['model']}\nfixed: {fixed or 'nothing'}"
+    )
+    shares = [(name, f"{100.0 * share:.1f} %") for name, share in made["regimes"].items()]
+    rows = [
+        (
+            one["kind"],
+            one["equation"],
+            "closed form" if one["exact"] else "contour",
+            _place(line["start"], x, y),
+            _place(line["end"], x, y),
+        )
+        for one in made["boundaries"]
+        for line in one["lines"]
+    ]
+    parts = [
+        head,
+        table(("dominant term", "of the map"), shares),
+        f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
+        table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
+    ]
+    if made["files"]:
+        parts.append(f"Written: {', '.join(made['files'])}")
+    return "\n\n".join(parts)
+
+
+def run_map(options: argparse.Namespace) -> RegimeMap:
+    preset = PRESETS.get(options.preset)
+    x, x_range = _axis(options.x, preset, 0)
+    y, y_range = _axis(options.y, preset, 1)
+    fixed = {**(preset.fixed if preset else {}), **_fixed(options.fix)}
+    return regime_map(
+        x,
+        y,
+        (x_range, y_range),
+        fixed,
+        options.model,
+        rtol=options.rtol,
+        scales=tuple("linear" if axis in options.linear else "log" for axis in "xy"),
+        nodes=options.nodes,
+        threshold=options.threshold,
+        miss=options.miss,
+    )
+
+
+def _axis(
+    given: list[str] | None, preset: Preset | None, which: int
+) -> tuple[str, tuple[float, float]]:
+    if given is not None:
+        one = coordinate(given[0])
+        dimension = _DIMENSIONS[one.unit]
+        return one.name, (parse_quantity(given[1], dimension), parse_quantity(given[2], dimension))
+    if preset is None:
+        raise InputError(f"the map's {'xy'[which]} is missing; give --{'xy'[which]} or --preset.")
+    return (preset.x, preset.y)[which], preset.ranges[which]
+
+
+def _fixed(items: list[str]) -> dict[str, float]:
+    fixed: dict[str, float] = {}
+    for item in items:
+        name, equals, text = item.partition("=")
+        if not equals:
+            raise InputError(f"{item!r} fixes nothing; write NAME=VALUE, for instance mu=685Pa.")
+        one = coordinate(name.strip())
+        fixed[one.name] = parse_quantity(text, _DIMENSIONS[one.unit])
+    return fixed
+
+
+def _example() -> list[MapPoints]:
+    """Return the shipped experiment, with what Eq. (13) says about its gel."""
+    cuts = read_measurements(model_file("paam-wire-cutting.csv"))
+    material = read_material(model_file("paam-material.json"))
+    fit = identify(cuts.wire_radius, cuts.force, material.shear_modulus or np.nan, model="eq13")
+    return [MapPoints(fit.scene(cuts.wire_radius), "PAAm, Eq. (13)")]
+
+
+def _range(axis: dict[str, Any]) -> str:
+    unit = f" {axis['unit']}" if axis["unit"] else ""
+    return f"{axis['name']} {number(axis['low'])} to {number(axis['high'])}{unit}"
+
+
+def _place(point: list[float], x: dict[str, Any], y: dict[str, Any]) -> str:
+    return ", ".join(
+        f"{number(value)} {axis['unit']}".strip() for value, axis in zip(point, (x, y), strict=True)
+    )

@@ -1,0 +1,98 @@
+"""The transformed quantities in which A, B and delta are smooth enough to be fitted.
+
+Coordinates are ln g, ln alpha and the toughness beyond the touch of the tip, max(0, x) with
+x = ln(g/g_touch): functions of the three may bend at the touch. The quantities are
+
+    ln(A/A_wedge),   ln(B/B_wedge),   ln[(delta/R_w - 1)/(|x|^(7/4) delta_wedge/R_w)],
+
+the last one short of the touch only. It is finite there, because delta reaches R_w with a vertex of
+about that power; beyond, delta is R_w.
+
+Where the crack tip begins to touch the wire, and the coordinates that this gives the fits.
+
+At g_touch(alpha) the deformed distance delta reaches R_w; it stays there while g rises further.
+ln g_touch is a polynomial in ln alpha with fitted coefficients. It separates far-field cutting from
+indentation cutting, and A, B and delta bend there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["POWER", "QUANTITIES", "coordinates", "log_touch", "log_touch_slope", "vertex"]
+
+QUANTITIES = ("arc", "normal_load", "distance")
+POWER = 1.75
+
+
+def coordinates(log_g: Any, log_alpha: Any, touch: Any) -> NDArray[np.float64]:
+    """Return the coordinates of points as one array of shape (points, 3).
+
+    Examples
+    --------
+    >>> coordinates(2.0, 1.0, 1.5)
+    array([[2. , 1. , 0.5]])
+    """
+    beyond = np.maximum(np.subtract(log_g, touch), 0.0)
+    return np.stack(np.broadcast_arrays(*np.atleast_1d(log_g, log_alpha, beyond)), axis=-1)
+
+
+def vertex(x: Any) -> Any:
+    """Return |x|^(7/4) where x is negative, else 0.
+
+    Examples
+    --------
+    >>> print(f"{vertex(-0.5):.6f} {vertex(0.5):.6f}")
+    0.297302 0.000000
+    """
+    if type(x) is float:
+        short = max(-x, 0.0)
+        half = math.sqrt(short)  # to the last bit as numpy's, which roots alone are
+        return short * half * math.sqrt(half)
+    short = np.maximum(-x, 0.0)
+    half = np.sqrt(short)
+    return short * half * np.sqrt(half)
+
+
+def log_touch(coefficients: Sequence[float], log_alpha: Any) -> Any:
+    """Return ln g_touch at ln alpha.
+
+    Parameters
+    ----------
+    coefficients : sequence of float
+        Of the powers of ln alpha, rising.
+    log_alpha : float or ndarray
+        ln alpha.
+
+    Returns
+    -------
+    float or ndarray
+        ln g_touch.
+
+    Examples
+    --------
+    >>> print(f"{log_touch((0.5, 2.0), 1.5):.3f}")
+    3.500
+    """
+    value = coefficients[-1] + 0.0 * log_alpha
+    for coefficient in coefficients[-2::-1]:
+        value *= log_alpha  # in place, if it is an array
+        value += coefficient
+    return value
+
+
+def log_touch_slope(coefficients: Sequence[float], log_alpha: Any) -> Any:
+    """Return d ln g_touch/d ln alpha.
+
+    Examples
+    --------
+    >>> print(f"{log_touch_slope((0.5, 2.0, 1.0), 1.5):.3f}")
+    5.000
+    """
+    powers = [i * c for i, c in enumerate(coefficients)][1:]
+    return log_touch(powers or [0.0], log_alpha)

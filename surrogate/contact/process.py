@@ -1,0 +1,241 @@
+"""A Gaussian process evaluated in numpy from the points that it was fitted to.
+
+The prior covariance of two points is `variance` times exp(-r^2/2) with r in units of a length for
+each coordinate. Instead of all points, a chosen few carry the prediction (the deterministic
+training conditional): with K_uu the covariance of these, K_uf that with all and N the noise, the
+mean is k_u S K_uf N^-1 y with S = (K_uu + K_uf N^-1 K_fu)^-1, and the variance is
+k - k_u (K_uu^-1 - S) k_u. With K_uu = L L' and the eigenvalues q of L^-1 K_uf N^-1 K_fu L'^-1 the
+middle is that of q/(1 + q), a square without differences. Everything but the points and the
+parameters is computed once, at the first use.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.basics.elementwise import log
+from surrogate.contact.coordinates import POWER, coordinates, vertex
+from surrogate.contact.domain import Domain
+from surrogate.contact.fitted import FittedModel, in_blocks
+from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
+
+__all__ = ["GaussianProcess", "ProcessModel"]
+
+Array = NDArray[np.float64]
+
+ROWS = 128  # points at a time, always: so that no result depends on how many are asked for
+JITTER = 1e-11
+
+
+@dataclass(frozen=True, eq=False)
+class GaussianProcess:
+    """A Gaussian process of one quantity.
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (points, coordinates)
+        Where the quantity is known.
+    values, noise : ndarray, shape (points,)
+        The quantity there and the variance of its error.
+    active : ndarray of int, shape (active,)
+        The points that carry the prediction.
+    mean, variance : float
+        Of the prior.
+    lengths : ndarray, shape (coordinates,)
+        Distances over which the quantity changes.
+    calibration : float
+        Factor of the standard deviation, found by leaving points out.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 3.0, 7)[:, np.newaxis]
+    >>> process = GaussianProcess(
+    ...     x, np.sin(x[:, 0]), np.full(7, 1e-8), np.arange(7), 0.0, 1.0, np.array([1.5])
+    ... )
+    >>> mean, std = process.predict(np.array([[1.25]]))
+    >>> print(f"{mean[0]:.3f}, {np.sin(1.25):.3f}, {std[0] < 1e-2}")
+    0.949, 0.949, True
+    """
+
+    inputs: Array
+    values: Array
+    noise: Array
+    active: NDArray[np.intp]
+    mean: float
+    variance: float
+    lengths: Array
+    calibration: float = 1.0
+
+    def predict(self, at: Array) -> tuple[Array, Array]:
+        """Return mean and standard deviation at points of shape (n, coordinates)."""
+        mean, std = np.empty(len(at)), np.empty(len(at))
+        room, other, (weights, spread) = self._room(ROWS), self._room(ROWS), self._solved
+        for rows, block in _blocks(at):
+            some = slice(0, rows.stop - rows.start)
+            covariance = self._covariance(block, room)
+            mean[rows] = self.mean + _sum(np.multiply(covariance, weights, out=other))[some]
+            np.matmul(covariance, spread, out=other)
+            other *= other
+            variance = np.maximum(self.variance - _sum(other), 0.0)[some]
+            std[rows] = self.calibration * np.sqrt(variance)
+        return mean, std
+
+    def predict_mean(self, at: Array) -> Array:
+        """Return the mean at points of shape (n, coordinates)."""
+        mean, room, (weights, _) = np.empty(len(at)), self._room(ROWS), self._solved
+        for rows, block in _blocks(at):
+            weighted = np.multiply(self._covariance(block, room), weights, out=room)
+            mean[rows] = self.mean + _sum(weighted)[: rows.stop - rows.start]
+        return mean
+
+    def gradient(self, at: Array) -> Array:
+        """Return the derivatives of the mean by the coordinates, shape (n, coordinates)."""
+        slopes, room, (weights, _) = np.empty(at.shape), self._room(ROWS), self._solved
+        for rows, block in _blocks(at):
+            weighted = np.multiply(self._covariance(block, room), weights, out=room)
+            for i, length in enumerate(self.lengths):
+                apart = self._active[0][:, i] - block[:, i, np.newaxis]
+                slope = _sum(weighted * apart) / length**2
+                slopes[rows, i] = slope[: rows.stop - rows.start]
+        return slopes
+
+    def _room(self, rows: int) -> Array:
+        return np.empty((rows, len(self.active)))
+
+    def _covariance(self, at: Array, room: Array) -> Array:
+        """Return the covariance with the active points, in `room`."""
+        # -r^2/2 of x and y is x y - (x^2 + y^2)/2: one product of matrices, where differences
+        # would need a pass over `room` for each coordinate
+        _, centre, columns = self._active
+        x = (at - centre) / self.lengths
+        x = np.concatenate([x, np.full((len(x), 1), 1.0), _half_square(x)], axis=1)
+        np.matmul(x, columns, out=room)
+        return np.exp(room, out=room)
+
+    @cached_property
+    def _active(self) -> tuple[Array, Array, Array]:
+        """The points that carry the prediction, their centre, and factors of `_covariance`."""
+        active = np.ascontiguousarray(self.inputs[self.active])
+        centre = active.mean(axis=0)
+        y = (active - centre) / self.lengths
+        own = _half_square(y) + np.log(self.variance)
+        return active, centre, np.concatenate([y, own, np.full(own.shape, 1.0)], axis=1).T.copy()
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array]:
+        """The weights of the mean, and the matrix that gives the variance."""
+        k_uf = self._covariance(self.inputs, self._room(len(self.inputs))).T
+        k_uu = k_uf[:, self.active] + JITTER * self.variance * np.eye(len(self.active))
+        whitening = np.linalg.inv(np.linalg.cholesky(k_uu))
+        white = whitening @ k_uf
+        known, axes = np.linalg.eigh((white / self.noise) @ white.T)
+        known = np.maximum(known, 0.0)
+        target = white @ ((self.values - self.mean) / self.noise)
+        weights = whitening.T @ (axes @ ((axes.T @ target) / (1.0 + known)))
+        spread = whitening.T @ (axes * np.sqrt(known / (1.0 + known)))
+        return weights, spread
+
+
+def _sum(rows: Array) -> Array:
+    return np.asarray(np.add.reduce(rows, axis=1))
+
+
+def _half_square(rows: Array) -> Array:
+    """Return minus half the squared lengths of rows, as a column."""
+    return np.asarray(-0.5 * np.add.reduce(rows * rows, axis=1, keepdims=True))
+
+
+def _blocks(at: Array) -> Any:
+    """Yield slices and as many points, always `ROWS` of them: the last ones are repeated."""
+    for start in range(0, len(at), ROWS):
+        block = at[start : start + ROWS]
+        stop = start + len(block)
+        if len(block) < ROWS:
+            block = np.concatenate(
+                [block, np.broadcast_to(block[-1:], (ROWS - len(block), at.shape[1]))]
+            )
+        yield slice(start, stop), block
+
+
+@dataclass(frozen=True, eq=False)
+class ProcessModel(FittedModel):
+    """The means of the processes, with their standard deviations.
+
+    Parameters
+    ----------
+    limits : Domain
+        Its domain.
+    processes : mapping of str to GaussianProcess
+        Of the quantities of `surrogate.contact.coordinates`.
+    touch_error : float
+        Standard error of ln g_touch, which the standard deviation of delta contains [-].
+    """
+
+    limits: Domain
+    processes: Mapping[str, GaussianProcess] = field(repr=False)
+    touch_error: float = 0.0
+    name: str = "gp"
+    uncertain: bool = True
+    equation: str = "Gaussian processes"
+
+    def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
+        at, scales = self._at(log_g, log_alpha)
+        values = [_value(n, self.processes[n].predict_mean(at), scales) for n in names]
+        return [float(v[0]) for v in values] if type(log_g) is float else values
+
+    def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
+        at, scales = self._at(log_g, log_alpha)
+        process = self.processes[name]
+        value = _value(name, process.predict_mean(at), scales)
+        slopes = process.gradient(at)
+        touch, bend = self.limits.log_touch_slopes(at[:, 1])
+        x = at[:, 0] - touch
+        past = (x >= 0.0) * slopes[:, 2]
+        in_g = wedge_slopes(at[:, 0])[name] + slopes[:, 0] + past
+        in_alpha = slopes[:, 1] - bend * past
+        size = value
+        if name == "distance":
+            size = value - 1.0
+            with np.errstate(all="ignore"):
+                steep = np.where(x < 0.0, POWER / x, 0.0)
+            in_g, in_alpha = in_g + steep, in_alpha - steep * bend
+        found = value, size * in_g, size * in_alpha
+        return tuple(float(f[0]) for f in found) if type(log_g) is float else found  # type: ignore[return-value]
+
+    def stds(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
+        """Return the standard deviations of A, B or delta, as named; nan outside the domain."""
+        scalar = type(g) is float and type(alpha) is float
+        found = in_blocks(lambda *at: self._stds(names, *at), len(names), g, alpha)
+        return [float(std) for std in found] if scalar else found
+
+    def _stds(self, names: Sequence[str], g: Array, alpha: Any) -> list[Array]:
+        at, scales = self._at(*self.limits.clamped(log(g), log(alpha)))
+        inside = self.limits.holds(g, alpha)
+        stds = []
+        for name in names:
+            mean, std = self.processes[name].predict(at)
+            size = _value(name, mean, scales) - (1.0 if name == "distance" else 0.0)
+            if name == "distance":
+                x = np.minimum(at[:, 0] - self.limits.log_touch(at[:, 1]), -self.touch_error)
+                std = np.hypot(std, POWER * self.touch_error / x)
+            stds.append(np.where(inside, size * std, np.nan))
+        return stds
+
+    def _at(self, log_g: Any, log_alpha: Any) -> tuple[Array, dict[str, Array]]:
+        """Return the coordinates of points, and A, B and delta - 1 where the quantities are 0."""
+        touch = self.limits.log_touch(log_alpha)
+        at = coordinates(log_g, log_alpha, touch)
+        rows = at[:, 0]
+        scales = wedge_functions(rows, wedge_load(rows))
+        return at, scales | {"distance": scales["distance"] * vertex(rows - touch)}
+
+
+def _value(name: str, quantity: Array, scales: Mapping[str, Array]) -> Array:
+    value = scales[name] * np.exp(quantity)
+    return 1.0 + value if name == "distance" else value

@@ -1,0 +1,268 @@
+"""Piecewise bicubic functions of (ln g, ln alpha) that may bend where the tip touches the wire.
+
+The grid follows the touch, see `surrogate.contact.grid`. In every cell a function is a polynomial
+of degree three in each direction. Values and slopes agree at the edges of cells, but the slopes
+across the touch need not.
+
+Floats, arrays with one alpha and arrays of both take ways of different speed through the same
+operations on the same numbers, so that they agree to the last bit.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.basics.elementwise import where
+from surrogate.contact.coordinates import POWER, vertex
+from surrogate.contact.domain import Domain
+from surrogate.contact.fitted import FittedModel
+from surrogate.contact.grid import Grid, Place
+
+__all__ = ["CellTable", "TableModel"]
+
+Array = NDArray[np.float64]
+
+_KEPT = 24  # collapsed tables, some kilobytes each
+
+_HERMITE = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class CellTable:
+    """Functions on one grid.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    nodes : mapping of str to tuple of ndarray, shape (nodes along g, nodes along alpha)
+        For each function its values at the nodes on either side of the touch, which is the last
+        node of the first array and the first of the second. The slopes are those of cubic splines.
+    """
+
+    grid: Grid
+    nodes: Mapping[str, tuple[Array, Array]]
+    _cells: dict[str, Array] = field(default_factory=dict, repr=False)
+    _columns: dict[str, list[Array]] = field(default_factory=dict, repr=False)
+    _rows: dict[str, dict[int, tuple[float, ...]]] = field(default_factory=dict, repr=False)
+    _collapsed: dict[tuple[str, int, float], list[Array]] = field(default_factory=dict, repr=False)
+
+    def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
+        """Return x = ln(g/g_touch) and functions at points: floats, or arrays and one alpha."""
+        if type(log_g) is float:
+            return self._number(names, log_g, log_alpha)
+        if type(log_alpha) is float:
+            place = self.grid.place(log_g, log_alpha)
+            return place.x, [self._along(name, place) for name in names]
+        if "numba" in sys.modules:
+            return self._compiled(names, log_g, log_alpha)
+        place = self.grid.place(log_g, log_alpha)
+        return place.x, self._scattered(names, place)
+
+    def slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any, Any]:
+        """Return x, a function and its derivatives by ln g and by ln alpha."""
+        place = self.grid.place(log_g, log_alpha)
+        index = place.along_g * self.grid.stiffening + place.along_alpha
+        rows = self.cells(name).reshape(-1, 4, 4)[index]
+        c = np.moveaxis(rows, (-2, -1), (0, 1))
+        t, s = place.in_g, place.in_alpha
+        power = [c[k][0] + s * (c[k][1] + s * (c[k][2] + s * c[k][3])) for k in range(4)]
+        across = [c[k][1] + s * (2.0 * c[k][2] + s * (3.0 * c[k][3])) for k in range(4)]
+        value = power[0] + t * (power[1] + t * (power[2] + t * power[3]))
+        by_cell = power[1] + t * (2.0 * power[2] + t * (3.0 * power[3]))
+        by_row = across[0] + t * (across[1] + t * (across[2] + t * across[3]))
+        in_g, moved, in_alpha = self.grid.slopes(place, log_alpha)
+        return place.x, value, by_cell * in_g, by_row * in_alpha + by_cell * moved
+
+    def cells(self, name: str) -> Array:
+        """Return the sixteen coefficients of every cell of a function, one row each."""
+        if name not in self._cells:
+            sides = [_coefficients(side) for side in self.nodes[name]]
+            self._cells[name] = np.concatenate(sides)
+        return self._cells[name]
+
+    def _transposed(self, name: str) -> list[Array]:
+        """Return sixteen arrays of coefficients over the cells."""
+        if name not in self._columns:
+            self._columns[name] = list(np.ascontiguousarray(self.cells(name).T))
+        return self._columns[name]
+
+    def _row(self, name: str, cell: int) -> tuple[float, ...]:
+        """Return the coefficients of one cell as numbers, which are kept."""
+        return self._rows.setdefault(name, {}).setdefault(
+            cell, tuple(self.cells(name)[cell].tolist())
+        )
+
+    @cached_property
+    def _numbers(self) -> tuple[Any, ...]:
+        """What `_number` needs of the grid."""
+        grid = self.grid
+        low, high = grid.log_alpha
+        return (
+            *(grid.touch[-1], grid.touch[-2::-1], grid.log_g, grid.short, grid.past / grid.beyond),
+            *(grid.cells, low, grid.stiffening / (high - low), grid.stiffening),
+        )
+
+    def _number(
+        self, names: Sequence[str], log_g: float, log_alpha: float
+    ) -> tuple[float, list[float]]:
+        """Do the same as `Grid.place` and `_scattered` for one point, in one piece for speed."""
+        last, others, low_g, short, past, rows, low_alpha, per_alpha, columns = self._numbers
+        touch = last + 0.0 * log_alpha
+        for coefficient in others:
+            touch = touch * log_alpha + coefficient
+        x = log_g - touch
+        t = (short / (touch - low_g) if x < 0.0 else past) * x + short
+        s = (log_alpha - low_alpha) * per_alpha
+        row, column = int(t), int(s)
+        if not 0 <= row < rows:
+            row = 0 if row < 0 else rows - 1
+        if not 0 <= column < columns:
+            column = 0 if column < 0 else columns - 1
+        t -= row
+        s -= column
+        cell = row * columns + column
+        found, rows_of = [], self._rows
+        for name in names:
+            kept = rows_of[name].get(cell) if name in rows_of else None
+            a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = kept or self._row(
+                name, cell
+            )
+            a += s * (a1 + s * (a2 + s * a3))
+            b += s * (b1 + s * (b2 + s * b3))
+            c += s * (c1 + s * (c2 + s * c3))
+            d += s * (d1 + s * (d2 + s * d3))
+            found.append(a + t * (b + t * (c + t * d)))
+        return x, found
+
+    def _compiled(
+        self, names: Sequence[str], log_g: Array, log_alpha: Array
+    ) -> tuple[Array, list[Array]]:
+        from surrogate.contact.compiled import bicubic, places
+
+        grid = self.grid
+        low, high = grid.log_alpha
+        counts = grid.short, grid.past, grid.stiffening
+        steps = grid.log_g, grid.past / grid.beyond, low, grid.stiffening / (high - low)
+        x, *place = places(log_g, log_alpha, np.array(grid.touch), counts, steps)
+        return x, [bicubic(self.cells(name), *place) for name in names]
+
+    def _scattered(self, names: Sequence[str], place: Place) -> list[Array]:
+        index = place.along_g * self.grid.stiffening
+        index += place.along_alpha
+        t, s = place.in_g, place.in_alpha
+        power, taken = np.empty(t.shape), np.empty(t.shape)
+        found = []
+        for name in names:
+            columns, result = self._transposed(name), np.empty(t.shape)
+            _horner(columns[12:], index, s, result, taken)
+            for k in (8, 4, 0):
+                _horner(columns[k : k + 4], index, s, power, taken)
+                result *= t
+                result += power
+            found.append(result)
+        return found
+
+    def _along(self, name: str, place: Place) -> Array:
+        """Return the function along g at one alpha."""
+        result, taken = np.empty(place.in_g.shape), np.empty(place.in_g.shape)
+        columns = self._collapse(name, place.along_alpha, place.in_alpha)
+        _horner(columns, place.along_g, place.in_g, result, taken)
+        return result
+
+    def _collapse(self, name: str, j: int, s: float) -> list[Array]:
+        """Return the four columns that are left of the table at one alpha; the latest are kept."""
+        found = self._collapsed.get((name, j, s))
+        if found is None:
+            c = self.cells(name).reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 1, 0)
+            found = list(np.ascontiguousarray(c[0] + s * (c[1] + s * (c[2] + s * c[3]))))
+            if len(self._collapsed) >= _KEPT:
+                self._collapsed.clear()
+            self._collapsed[name, j, s] = found
+        return found
+
+
+def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: Array) -> None:
+    """Put the polynomials of cells into `result`, whose columns are their coefficients."""
+    columns[-1].take(index, out=result, mode="clip")  # clipping takes less time than checking
+    for column in columns[-2::-1]:
+        result *= x
+        result += column.take(index, out=taken, mode="clip")
+
+
+def _coefficients(values: Array) -> Array:
+    """Return the sixteen coefficients of powers along g and along alpha, one row for each cell."""
+    by_g, by_alpha = _slopes(values.shape[0]), _slopes(values.shape[1])
+    along_g, along_alpha = by_g @ values, values @ by_alpha.T
+    mixed = along_g @ by_alpha.T
+    ends = np.empty((values.shape[0] - 1, values.shape[1] - 1, 4, 4))
+    for i, row in enumerate(((values, along_alpha), (along_g, mixed))):
+        for j, nodes in enumerate(row):
+            for end in (0, 1):
+                for other in (0, 1):
+                    rows, columns = ends.shape[0] + end, ends.shape[1] + other
+                    ends[:, :, 2 * i + end, 2 * j + other] = nodes[end:rows, other:columns]
+    return np.asarray(ends.reshape(-1, 16) @ np.kron(_HERMITE, _HERMITE).T)
+
+
+@cache
+def _slopes(nodes: int) -> Array:
+    """Return the matrix that makes slopes of the values at evenly spaced nodes, 4 or more.
+
+    It is that of the cubic spline whose third derivative does not jump at the last nodes but one.
+    """
+    left, right = np.eye(nodes) * 4.0, np.zeros((nodes, nodes))
+    for i in range(1, nodes - 1):
+        left[i, [i - 1, i + 1]] = 1.0
+        right[i, [i - 1, i + 1]] = -3.0, 3.0
+    left[0, :2], right[0, :3] = (1.0, 2.0), (-2.5, 2.0, 0.5)
+    left[-1, -2:], right[-1, -3:] = (2.0, 1.0), (-0.5, -2.0, 2.5)
+    return np.asarray(np.linalg.solve(left, right))
+
+
+@dataclass(frozen=True, eq=False)
+class TableModel(FittedModel):
+    """A, B and (delta/R_w - 1)/|x|^(7/4) on the cells of a grid, x = ln(g/g_touch).
+
+    Parameters
+    ----------
+    limits : Domain
+        Its domain.
+    table : CellTable
+        The functions "arc", "normal_load" and "distance".
+    """
+
+    limits: Domain
+    table: CellTable = field(repr=False)
+    name: str = "table"
+    equation: str = "bicubic cells of the gp's mean"
+
+    def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
+        x, values = self.table.at(names, log_g, log_alpha)
+        if "distance" in names:
+            which = names.index("distance")
+            values[which] = 1.0 + vertex(x) * values[which]
+        return values
+
+    def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
+        x, value, in_g, in_alpha = self.table.slopes(name, log_g, log_alpha)
+        if name != "distance":
+            return value, in_g, in_alpha
+        _, bend = self.limits.log_touch_slopes(log_alpha)
+        inner = where(x < 0.0, x, 1.0)
+        shape = vertex(x)
+        steep = POWER * shape / inner  # d |x|^(7/4)/dx
+        return (
+            1.0 + shape * value,
+            where(x < 0.0, shape * in_g + steep * value, 0.0),
+            where(x < 0.0, shape * in_alpha - steep * value * bend, 0.0),
+        )

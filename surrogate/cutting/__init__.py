@@ -1,0 +1,1 @@
+"""What a scene asks: forces, regimes, transition radii, slopes, uncertainty."""

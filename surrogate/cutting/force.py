@@ -1,0 +1,275 @@
+"""The steady cutting force and its parts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surrogate.basics.checks import (
+    FRICTION_COEFFICIENT,
+    RTOL,
+    FloatOrArray,
+    Quantity,
+    broadcast_shape,
+    flag,
+    one_number,
+)
+from surrogate.basics.elementwise import apply, evaluate_checked
+from surrogate.basics.records import Record
+from surrogate.choosing.by_name import AUTO, FITTED_NAMES, force_model, is_auto
+from surrogate.contact.domain import require_inside
+from surrogate.equations import RELATIVE_WEAR_STRENGTH
+from surrogate.scene import Scene, require_scene
+
+__all__ = ["CuttingForce", "cutting_force", "dissipative_force"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CuttingForce(Record):
+    """A steady cutting force per unit sample thickness and the parts that it is the sum of.
+
+    Every quantity is a float where the scene's all are numbers, else an array of the scene's
+    shape. `total` is `cleavage + friction + wear`, added in this order, to the last bit.
+
+    Parameters
+    ----------
+    total : float or ndarray
+        Steady cutting force F_ss/T [N/m].
+    cleavage : float or ndarray
+        Part of the cleavage toughness, Gamma_o [N/m].
+    friction : float or ndarray
+        Part of friction, 2 R_w xi mu B [N/m].
+    wear : float or ndarray
+        Part of wear, 2 R_w tau_w A [N/m].
+    model : str
+        Name of the model; "auto" where the points have several.
+    relative_error : float, ndarray or None
+        Known bound of the relative error of `total` [-]; None where nobody knows one.
+    in_domain : bool or ndarray of bool
+        Whether the model's own condition holds.
+    chosen : str or ndarray of str
+        Name of the model of each point.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (6), (7), (S1) and (S2).
+
+    Examples
+    --------
+    >>> force = cutting_force(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0))
+    >>> force.total == force.cleavage + force.friction + force.wear
+    True
+    """
+
+    total: FloatOrArray
+    cleavage: FloatOrArray
+    friction: FloatOrArray
+    wear: FloatOrArray
+    model: str
+    relative_error: FloatOrArray | None
+    in_domain: bool | NDArray[np.bool_]
+    chosen: str | NDArray[np.str_] = ""
+
+
+def cutting_force(
+    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
+) -> CuttingForce:
+    """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (S2).
+
+    Parameters
+    ----------
+    scene : Scene
+        What is cut and with which wire, in SI units.
+    model : str, default "auto"
+        "auto" for the cheapest model that meets `rtol`, at each point by itself; "power-law",
+        "table" or "gp" for those fitted to finite elements; "eq13" for Eq. (13), "high-toughness"
+        for Eq. (10), "low-toughness" for Eq. (12), "friction-free" for Eq. (15), or "eq9" for
+        Eq. (9) with the exponents of Table 1, linear in alpha between them.
+    rtol : float, default 0.02
+        Relative error that will do with "auto" [-]; `relative_error` of the result says which
+        bound holds.
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
+        the nearest alpha.
+
+    Returns
+    -------
+    CuttingForce
+        Total, cleavage, friction and wear [N/m], and whether the model holds.
+
+    Raises
+    ------
+    InputError
+        If `scene` is not a `Scene`, `rtol` not a positive number, `extrapolate` not True or False,
+        or a fitted model's file is missing or damaged.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
+        domain of a fitted model and `extrapolate` is not set.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`; the message names the best one.
+
+    Notes
+    -----
+    Range of validity: >> is taken to mean a factor of 10 (`MUCH_GREATER`). Outside its range a
+    closed form answers all the same, with `in_domain` False. "eq13": any. "high-toughness" and
+    "eq9": Gamma_o >= 10 mu R_w and Gamma_o > 0. "low-toughness": Gamma_o <= mu R_w.
+    "friction-free": xi = 0, or 10 xi <= 1 and 10 xi mu <= tau_w. Those of the fitted models are
+    given by `models`. Where xi = tau_w = 0 the force is Gamma_o by any of them.
+
+    Limits of closed forms at xi, tau_w, mu, R_w or Gamma_o = 0 are exact, at all of them together
+    too; only "eq9", whose friction xi Gamma_o g^(n-1) has no limit where Gamma_o and mu R_w are
+    both 0 and n > 1, is then given no friction, as for any Gamma_o = 0.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (9), (10), (12), (13), (15) and (S2), Table 1.
+
+    Examples
+    --------
+    >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
+    >>> force = cutting_force(gel)
+    >>> print(f"{force.total:.1f} N/m")
+    7.3 N/m
+    >>> force.relative_error <= 0.02
+    True
+    >>> force = cutting_force(gel, model="eq13")
+    >>> print(f"{force.total:.4f} = {force.cleavage:.4f} + {force.friction:.4f} + {force.wear:.4f}")
+    9.5785 = 1.6000 + 0.2285 + 7.7500
+    >>> limit = cutting_force(gel, model="high-toughness")
+    >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
+    1.7600 N/m, in domain: False
+    """
+    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
+    if is_auto(model):
+        require_scene(scene)
+        return _automatic(scene, rtol, extrapolate)
+    chosen = force_model(model)
+    require_scene(scene)
+    fitted = chosen.name in FITTED_NAMES
+    if not fitted:
+        chosen.stiffening.checked(scene.stiffening_exponent)
+    elif not extrapolate:
+        require_inside(chosen, scene.values())
+
+    def parts(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any, alpha: Any) -> tuple[Any, ...]:
+        cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
+        friction, wear = chosen.terms(mu, gamma, radius, xi, tau, alpha)
+        holds = chosen.in_domain(mu, gamma, radius, xi, tau, alpha)
+        return cleavage + friction + wear, cleavage, friction, wear, holds
+
+    total, cleavage, friction, wear, holds = apply(
+        parts, scene.values(), (float, float, float, float, bool)
+    )
+    return CuttingForce(total, cleavage, friction, wear, model, None, holds, model)
+
+
+def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
+    from surrogate.choosing.auto import automatic_terms, one_name
+
+    friction, wear, holds, names, bound = automatic_terms(scene.values(), rtol, extrapolate)
+    cleavage = np.add(np.broadcast_to(scene.toughness, scene.shape), 0.0)
+    cleavage = cleavage if scene.shape else float(cleavage)
+    total = cleavage + friction + wear
+    return CuttingForce(total, cleavage, friction, wear, one_name(names), bound, holds, names)
+
+
+def dissipative_force(
+    g: ArrayLike,
+    alpha: ArrayLike,
+    friction_coefficient: ArrayLike,
+    relative_wear_strength: ArrayLike,
+    model: str = AUTO,
+    rtol: float = 0.02,
+    extrapolate: bool = False,
+) -> FloatOrArray:
+    """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
+
+    Parameters
+    ----------
+    g : float or array_like
+        Dimensionless toughness Gamma_o/(mu R_w) [-], finite.
+    alpha : float or array_like
+        Stiffening exponent [-], positive.
+    friction_coefficient : float or array_like
+        xi [-].
+    relative_wear_strength : float or array_like
+        tau_w/mu [-].
+    model : str, default "auto"
+        As in `cutting_force`.
+    rtol : float, default 0.02
+        Relative error of this force that will do with "auto" [-].
+    extrapolate : bool, default False
+        As in `cutting_force`.
+
+    Returns
+    -------
+    float or ndarray
+        F_d/(mu R_w T) = 2 (tau_w A/mu + xi B) [-], of the common shape.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range or the shapes do not broadcast.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
+        domain of a fitted model and `extrapolate` is not set.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
+
+    Notes
+    -----
+    Range of validity: that of the model, see `cutting_force`.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (9), (11), (13), (S2) and Fig. 4.
+
+    Examples
+    --------
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.0f}")
+    33
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq13'):.4f}")
+    46.6400
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
+    1.5136
+    """
+    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
+    values = (g, alpha, friction_coefficient, relative_wear_strength)
+    automatic = is_auto(model)
+    chosen = force_model("table" if automatic else model)
+    in_g, in_alpha = chosen.accepted(extrapolate)
+    quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
+    if automatic:
+        return _automatic_dissipation(quantities, values, rtol, extrapolate)
+
+    def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
+        friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
+        return friction + wear
+
+    return evaluate_checked(dissipation, quantities, values)
+
+
+def _automatic_dissipation(
+    quantities: tuple[Quantity, ...], values: tuple[Any, ...], rtol: float, extrapolate: bool
+) -> FloatOrArray:
+    from surrogate.choosing.auto import automatic_terms
+
+    checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
+    broadcast_shape(tuple(q.name for q in quantities), checked)
+    g, alpha, xi, relative_wear = checked
+    scene = (1.0, g, 1.0, xi, relative_wear, alpha)
+    friction, wear, *_ = automatic_terms(scene, rtol, extrapolate, of_dissipation=True)
+    return friction + wear  # type: ignore[no-any-return]
+
+
+@cache
+def _as_alpha(stiffening: Quantity) -> Quantity:
+    return replace(stiffening, name="alpha")

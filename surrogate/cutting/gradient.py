@@ -1,0 +1,150 @@
+"""How the cutting force answers to each quantity of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surrogate.basics.checks import FloatOrArray, defined, flag
+from surrogate.basics.elementwise import apply
+from surrogate.basics.records import Record
+from surrogate.choosing.accuracy import one_model
+from surrogate.choosing.by_name import AUTO, FITTED_NAMES
+from surrogate.contact.domain import require_inside
+from surrogate.scene import NAMES, Scene, require_scene
+
+__all__ = ["ForceGradient", "force_gradient"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ForceGradient(Record):
+    """Derivatives of the steady cutting force F_ss/T by the quantities of a scene.
+
+    Each is a float where the scene's quantities all are numbers, else an array of the scene's
+    shape, and bears the name of the quantity by which the force is differentiated.
+
+    Parameters
+    ----------
+    shear_modulus : float or ndarray
+        By mu [m].
+    toughness : float or ndarray
+        By Gamma_o [-].
+    wire_radius : float or ndarray
+        By R_w [Pa].
+    friction_coefficient : float or ndarray
+        By xi [N/m].
+    wear_strength : float or ndarray
+        By tau_w [m].
+    stiffening_exponent : float or ndarray
+        By alpha [N/m].
+    model : str
+        Name of the model.
+
+    Examples
+    --------
+    The force is homogeneous of degree one in toughness and radius (Euler's theorem):
+
+    >>> from surrogate.cutting.force import cutting_force
+    >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
+    >>> slope = force_gradient(gel, "eq13")
+    >>> print(f"{1.6 * slope.toughness + 0.25e-3 * slope.wire_radius:.4f} N/m")
+    9.5785 N/m
+    >>> print(f"{cutting_force(gel, 'eq13').total:.4f} N/m")
+    9.5785 N/m
+    """
+
+    shear_modulus: FloatOrArray
+    toughness: FloatOrArray
+    wire_radius: FloatOrArray
+    friction_coefficient: FloatOrArray
+    wear_strength: FloatOrArray
+    stiffening_exponent: FloatOrArray
+    model: str
+
+
+def force_gradient(
+    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
+) -> ForceGradient:
+    """Return the analytic derivatives of the cutting force by every quantity of a scene.
+
+    With F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B) at g = Gamma_o/(mu R_w), a prime for d/dg:
+
+        by mu:      2 R_w [xi (B - g B') - (tau_w/mu) g A']
+        by Gamma_o: 1 + 2 [(tau_w/mu) A' + xi B']
+        by R_w:     2 [tau_w (A - g A') + xi mu (B - g B')]
+        by xi:      2 R_w mu B
+        by tau_w:   2 R_w A
+        by alpha:   2 R_w [tau_w dA/dalpha + xi mu dB/dalpha]
+
+    For Eq. (13), 2 A = 4 and 2 B = g + 4: 4 xi R_w, 1 + xi, 4 (xi mu + tau_w),
+    Gamma_o + 4 mu R_w, 4 R_w and 0.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is cut and with which wire, in SI units.
+    model : str, default "auto"
+        As in `cutting_force`, but that "auto" is one model for all points: the cheapest whose A
+        and B meet `rtol` all over its domain.
+    rtol : float, default 0.02
+        Relative error of A and B that will do with "auto" [-]. It bounds the derivatives by xi
+        and tau_w; of the slopes of A and B, which are in the others, no error is known.
+    extrapolate : bool, default False
+        Whether to continue a fitted model outside its domain, as in `cutting_force`.
+
+    Returns
+    -------
+    ForceGradient
+        The six derivatives in SI units.
+
+    Raises
+    ------
+    InputError
+        If `scene` is not a `Scene`.
+    UnknownModelError
+        If there is no such model.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
+    DomainError
+        If alpha is outside Table 1 for "eq9"; if g or alpha is outside the domain of a fitted
+        model and `extrapolate` is not set; or if a derivative has no limit, which is so only where
+        Gamma_o = 0 or mu R_w = 0 and the model is not a closed form.
+
+    Notes
+    -----
+    Range of validity: that of the model. Where A or B bends, the derivative is that from above.
+    A force that rises with a vertical tangent has an infinite derivative: that of "eq9" where
+    Gamma_o or mu R_w vanish and there is friction.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (13), (S1) and (S2).
+
+    Examples
+    --------
+    >>> slope = force_gradient(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0), "eq13")
+    >>> print(f"{slope.toughness:.3f} N/m more force for 1 J/m2 more toughness")
+    1.100 N/m more force for 1 J/m2 more toughness
+    >>> print(f"{1e-6 * slope.wire_radius:.6f} N/m more for 1 um more radius")
+    0.031274 N/m more for 1 um more radius
+
+    By finite elements far less reaches the force, as the tougher gel wears along a shorter arc:
+
+    >>> slope = force_gradient(Scene(685.0, 1.6, 0.25e-3, 0.0, 7750.0))
+    >>> slope.model, slope.toughness < 0.5
+    ('table', True)
+    """
+    chosen, extrapolate = one_model(model, rtol), flag("extrapolate", extrapolate)
+    require_scene(scene)
+    if chosen.name not in FITTED_NAMES:
+        chosen.stiffening.checked(scene.stiffening_exponent)
+    elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
+        mu, gamma, radius, _, _, alpha = scene.values()
+        require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
+    with np.errstate(all="ignore"):
+        slopes = apply(chosen.gradient, scene.values(), (float,) * 6)
+    remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"
+    for name, slope in zip(NAMES, slopes, strict=True):
+        defined(f"derivative by {name}", slope, remedy)
+    return ForceGradient(**dict(zip(NAMES, slopes, strict=True)), model=chosen.name)

@@ -1,0 +1,1 @@
+"""From measured forces to toughness and wear strength, with what leaves them in doubt."""

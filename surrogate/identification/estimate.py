@@ -1,0 +1,276 @@
+"""What the forces of several wires say about a material, in numbers."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from surrogate.basics.checks import LARGEST, Quantity
+from surrogate.choosing.by_name import force_model
+from surrogate.cutting.transition_radius import (
+    transition_radius,
+    wear_transition_radius,
+)
+from surrogate.errors import DomainError
+from surrogate.identification.further_wire import FurtherWire, forces_of
+from surrogate.identification.inputs import (
+    NOTHING_KNOWN,
+    PREDICTED_RADIUS,
+    Array,
+    Cuts,
+    Known,
+)
+from surrogate.identification.line_fit import linear_form
+from surrogate.identification.profile import Interval, Profile
+from surrogate.identification.quantiles import normal_quantile, student_quantile
+from surrogate.scene import Scene
+
+__all__ = ["Estimate"]
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The numbers of an identification; its subclass `Identification` documents the fields."""
+
+    toughness: float
+    wear_strength: float
+    covariance: Array
+    correlation: float
+    residuals: Array
+    r_squared: float
+    reduced_chi_squared: float | None
+    condition: float
+    leverage: Array
+    wire_radius: Array
+    force: Array
+    force_std: Array | None
+    shear_modulus: float
+    friction_coefficient: float
+    stiffening_exponent: float
+    model: str
+    confidence: float
+    known: Known = NOTHING_KNOWN
+    profile: Profile | None = None
+    further_wire: FurtherWire | None = None
+    model_error: tuple[float, float] | None = None
+
+    @property
+    def cuts(self) -> Cuts:
+        """The measurements and what was given of the material."""
+        return Cuts(
+            self.wire_radius,
+            self.force,
+            self.force_std,
+            self.shear_modulus,
+            self.friction_coefficient,
+            self.stiffening_exponent,
+        )
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom: measurements and other facts less the two unknowns."""
+        return self.force.size + self.known.facts - 2
+
+    @property
+    def toughness_std(self) -> float:
+        """Standard error of the toughness [J/m2]."""
+        return float(np.sqrt(self.covariance[0, 0]))
+
+    @property
+    def wear_strength_std(self) -> float:
+        """Standard error of the wear strength [Pa]."""
+        return float(np.sqrt(self.covariance[1, 1]))
+
+    @property
+    def toughness_interval(self) -> tuple[float, float]:
+        """Confidence interval of the toughness [J/m2]; around all pieces that `profile` has."""
+        if self.profile is not None:
+            return _hull(self.profile.toughness_intervals)
+        return self._interval(self.toughness, self.toughness_std)
+
+    @property
+    def wear_strength_interval(self) -> tuple[float, float]:
+        """Confidence interval of the wear strength [Pa]; around all pieces that `profile` has."""
+        if self.profile is not None:
+            return _hull(self.profile.wear_strength_intervals)
+        return self._interval(self.wear_strength, self.wear_strength_std)
+
+    @property
+    def dimensionless_toughness(self) -> Array:
+        """g = Gamma_o/(mu R_w) of each wire [-], shape (n,)."""
+        return self.toughness / (self.shear_modulus * self.wire_radius)
+
+    @property
+    def is_physical(self) -> bool:
+        """Whether neither estimate is negative."""
+        return self.toughness >= 0.0 and self.wear_strength >= 0.0
+
+    @property
+    def wear_length(self) -> float:
+        """l_w = Gamma_o/tau_w [m]; nan where an estimate is negative."""
+        return 4.0 * self.wear_transition_radius
+
+    @property
+    def wear_transition_radius(self) -> float:
+        """l_w/4 [m]; nan where an estimate is negative."""
+        return float(wear_transition_radius(self.scene(1.0))) if self.is_physical else np.nan
+
+    @property
+    def transition_radius(self) -> float:
+        """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
+        return float(transition_radius(self.scene(1.0), "eq13")) if self.is_physical else np.nan
+
+    @property
+    def model_transition_radius(self) -> float:
+        """Radius at which both parts of the model's force are equal [m]; nan beyond the model."""
+        with suppress(DomainError):
+            if self.is_physical:
+                return float(transition_radius(self.scene(1.0), self.model))
+        return np.nan
+
+    @property
+    def wear_length_std(self) -> float:
+        """Standard error of l_w [m]; nan where l_w is infinite or nan."""
+        return self._length_std(1.0, 0.0)
+
+    @property
+    def wear_transition_radius_std(self) -> float:
+        """Standard error of l_w/4 [m]; nan where that is infinite or nan."""
+        return 0.25 * self.wear_length_std
+
+    @property
+    def transition_radius_std(self) -> float:
+        """Standard error of the transition radius of Eq. (13) [m]; nan where that is no number."""
+        xi = self.friction_coefficient
+        return self._length_std(0.25 * (1.0 + xi), xi * self.shear_modulus)
+
+    def _length_std(self, factor: float, stress: float) -> float:
+        """Standard error of factor Gamma_o/(stress + tau_w) [m], to first order."""
+        stress += self.wear_strength
+        if not self.is_physical or stress == 0.0:
+            return np.nan
+        gradient = (factor / stress) * np.array([1.0, -self.toughness / stress])
+        return float(np.sqrt(gradient @ self.covariance @ gradient))
+
+    def scene(self, wire_radius: ArrayLike) -> Scene:
+        """Return the scene of the identified material and a wire of any radius [m].
+
+        Raises
+        ------
+        InputError
+            If an estimate is negative.
+        """
+        return Scene(
+            shear_modulus=self.shear_modulus,
+            toughness=self.toughness,
+            wire_radius=wire_radius,
+            friction_coefficient=self.friction_coefficient,
+            wear_strength=self.wear_strength,
+            stiffening_exponent=self.stiffening_exponent,
+        )
+
+    def predict(self, wire_radius: ArrayLike) -> Array:
+        """Return the fitted F_ss/T [N/m] for wires of any radius [m], 0 included.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or not a number.
+        DomainError
+            If the model does not reach to g = Gamma_o/(mu R_w) of a wire.
+        """
+        if self.profile is not None:
+            radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+            at = np.array([self.toughness]), np.array([self.wear_strength])
+            return np.asarray(self._forces(*at, radius)[0].reshape(radius.shape))
+        columns, offset = self._linear_form(wire_radius)
+        return np.asarray(offset + columns @ np.array([self.toughness, self.wear_strength]))
+
+    def predict_std(self, wire_radius: ArrayLike) -> Array:
+        """Return the standard error of the fitted F_ss/T [N/m] for wires of any radius [m]."""
+        columns = self.force_slopes(wire_radius)
+        variance = np.einsum("...i,ij,...j", columns, self.covariance, columns)
+        return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
+
+    def band(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
+        """Return the confidence band of the fitted force [N/m] at any radius [m].
+
+        With `profile`, from the smallest to the largest force of any material that it admits.
+        """
+        if self.profile is not None:
+            radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+            if not self.profile.admitted.size:
+                return np.full(radius.shape, np.nan), np.full(radius.shape, np.nan)
+            gamma, low, high = self.profile.admitted
+            return (
+                self._forces(gamma, low, radius).min(axis=0).reshape(radius.shape),
+                self._forces(gamma, high, radius).max(axis=0).reshape(radius.shape),
+            )
+        half_width = self._quantile * self.predict_std(wire_radius)
+        line = self.predict(wire_radius)
+        return line - half_width, line + half_width
+
+    def _forces(self, toughness: Array, wear_strength: Array, radius: Array) -> Array:
+        model = force_model(self.model)
+        if model.g.lower > 0.0 or model.g.upper < LARGEST:
+            self._radii_of(model.g, toughness).checked(radius)
+        return forces_of(model, self.cuts, toughness, wear_strength, radius.reshape(-1))
+
+    def _radii_of(self, g: Quantity, toughness: Array) -> Quantity:
+        """Return the radii for which g of all toughnesses is within a range, but for rounding."""
+        rounding = 1e-12
+        with np.errstate(all="ignore"):
+            thinnest, thickest = (
+                float(gamma / (self.shear_modulus * limit))
+                for gamma, limit in ((toughness.max(), g.upper), (toughness.min(), g.lower))
+            )
+        return replace(
+            PREDICTED_RADIUS,
+            lower=max(PREDICTED_RADIUS.lower, (1.0 - rounding) * thinnest),
+            upper=min(PREDICTED_RADIUS.upper, (1.0 + rounding) * thickest),
+            error=DomainError,
+            remedy=f"model {self.model!r} reaches no further, from g = {g.lower:.4g} to "
+            f"{g.upper:.4g}: give radii between, or identify with model='eq13'",
+        )
+
+    def force_slopes(self, wire_radius: ArrayLike) -> Array:
+        """Return the derivatives of the force by toughness [-] and wear strength [m], last axis 2.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or not a number.
+        """
+        if self.profile is None:
+            return self._linear_form(wire_radius)[0]
+        radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+        at = self.shear_modulus, self.toughness, radius, self.friction_coefficient
+        with np.errstate(all="ignore"):
+            slopes = force_model(self.model).gradient(
+                *at, self.wear_strength, self.stiffening_exponent
+            )
+        both = [np.broadcast_to(slopes[i], radius.shape) for i in (1, 4)]
+        return np.asarray(np.stack(both, axis=-1))
+
+    @property
+    def _quantile(self) -> float:
+        if self.force_std is not None:
+            return normal_quantile(self.confidence)
+        return student_quantile(self.confidence, self.dof) if self.dof > 0 else np.nan
+
+    def _interval(self, estimate: float, std: float) -> tuple[float, float]:
+        half_width = self._quantile * std
+        return estimate - half_width, estimate + half_width
+
+    def _linear_form(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
+        radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
+        return linear_form(self.model, radius, self.shear_modulus, self.friction_coefficient)
+
+
+def _hull(intervals: tuple[Interval, ...]) -> tuple[float, float]:
+    """Return the smallest and the largest of all ends; nan where there are none."""
+    ends = [end for interval in intervals for end in interval]
+    return min(ends, default=np.nan), max(ends, default=np.nan)

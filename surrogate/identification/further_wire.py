@@ -1,0 +1,151 @@
+"""Which further wire would tell most about what a series of cuts leaves open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.contact.base import ForceModel
+from surrogate.identification.inputs import Cuts
+from surrogate.identification.misfit import Misfit
+from surrogate.identification.profile import Profile
+
+__all__ = ["FurtherWire", "forces_of", "further_wire", "range_of_wires"]
+
+Array = NDArray[np.float64]
+
+BEYOND = 5.0
+"""Factor by which a further wire may be thinner or thicker than those of the cuts."""
+
+CANDIDATES = 401
+
+
+@dataclass(frozen=True)
+class FurtherWire:
+    """The wire whose force differs most between materials that the cuts do not tell apart.
+
+    Parameters
+    ----------
+    wire_radius : float
+        R_w [m].
+    forces : tuple of float
+        Force on it with the lowest and with the highest toughness compared [N/m].
+    toughnesses : tuple of float
+        These toughnesses [J/m2].
+    separation : float
+        Difference of the forces over the standard error of one cut [-]; infinite where the
+        forces of the cuts have no scatter.
+    searched : tuple of float
+        Smallest and largest radius that was considered [m].
+    modes : bool
+        Whether the materials compared are minima of the misfit, and not ends of an interval.
+    """
+
+    wire_radius: float
+    forces: tuple[float, float]
+    toughnesses: tuple[float, float]
+    separation: float
+    searched: tuple[float, float]
+    modes: bool
+
+    @property
+    def cuts(self) -> float:
+        """Cuts with it whose mean tells the two apart by two standard errors."""
+        if self.separation < 1e-9:
+            return np.inf
+        return max(1.0, float(np.ceil((2.0 / self.separation) ** 2)))
+
+
+def range_of_wires(cuts: Cuts) -> tuple[float, float]:
+    """Return the radii [m] from a fifth of the thinnest to five times the thickest wire.
+
+    Examples
+    --------
+    >>> wires = np.array([1e-4, 4e-4])
+    >>> low, high = range_of_wires(Cuts(wires, wires, None, 1.0, 0.0, 2.0))
+    >>> print(f"{low:.1e} {high:.1e}")
+    2.0e-05 2.0e-03
+    """
+    return float(cuts.wire_radius.min()) / BEYOND, float(cuts.wire_radius.max()) * BEYOND
+
+
+def forces_of(
+    model: ForceModel, cuts: Cuts, toughness: Array, wear_strength: Array, wire_radius: Array
+) -> Array:
+    """Return F_ss/T [N/m] of materials (m,) on wires (k,), shape (m, k)."""
+    gamma, tau = toughness[:, np.newaxis], wear_strength[:, np.newaxis]
+    modulus, friction, exponent = (
+        cuts.shear_modulus,
+        cuts.friction_coefficient,
+        cuts.stiffening_exponent,
+    )
+    with np.errstate(all="ignore"):
+        parts = model.terms(modulus, gamma, wire_radius, friction, tau, exponent)
+        return np.asarray(gamma + np.zeros(wire_radius.shape) + parts[0] + parts[1])
+
+
+def further_wire(
+    misfit: Misfit, profile: Profile, std: Array, searched: tuple[float, float]
+) -> FurtherWire | None:
+    """Return the wire that tells most, among those for which the model holds.
+
+    Compared are the minima that are admitted, where there are several; else the two ends of the
+    toughness's interval, each with its best wear strength. The error of a force is taken as the
+    same share of the force as at the nearest wires of the cuts.
+
+    Parameters
+    ----------
+    misfit : Misfit
+        The cuts so far, and the model.
+    profile : Profile
+        What they say.
+    std : ndarray, shape (n,)
+        Standard error of each of their forces [N/m]; all 0 where they have no scatter.
+    searched : tuple of float
+        Smallest and largest radius to consider [m].
+
+    Returns
+    -------
+    FurtherWire or None
+        None where the cuts leave nothing open, or the model holds for no such wire.
+    """
+    gamma, modes = _toughnesses(profile)
+    if gamma.size < 2:
+        return None
+    model, cuts, tau = misfit.model, misfit.cuts, misfit.at(gamma).wear_strength
+    radius = np.geomspace(*searched, CANDIDATES)
+    radius[0], radius[-1] = searched
+    g = gamma[:, np.newaxis] / (cuts.shear_modulus * radius)
+    radius = radius[np.all((g >= model.g.lower) & (g <= model.g.upper), axis=0)]
+    if not radius.size:
+        return None
+    forces = forces_of(model, cuts, gamma, tau, radius)
+    apart = forces.max(axis=0) - forces.min(axis=0)
+    error = _relative_std(cuts, std, radius) * forces.mean(axis=0)
+    scattered = bool(np.any(std > 0.0))
+    best = int(np.argmax(apart / (error if scattered else forces.mean(axis=0))))
+    return FurtherWire(
+        wire_radius=float(radius[best]),
+        forces=(float(forces[0, best]), float(forces[-1, best])),
+        toughnesses=(float(gamma[0]), float(gamma[-1])),
+        separation=float(apart[best] / error[best]) if scattered else np.inf,
+        searched=searched,
+        modes=modes,
+    )
+
+
+def _toughnesses(profile: Profile) -> tuple[Array, bool]:
+    """Return the toughnesses of the materials to tell apart, and whether they are minima."""
+    minima = sorted(mode.toughness for mode in profile.modes if mode.admitted)
+    if len(minima) > 1:
+        return np.array(minima), True
+    return np.unique(profile.admitted[0, [0, -1]] if profile.admitted.size else []), False
+
+
+def _relative_std(cuts: Cuts, std: Array, radius: Array) -> Array:
+    known, places = np.unique(cuts.wire_radius, return_inverse=True)
+    count = np.bincount(places.reshape(-1))
+    share = np.bincount(places.reshape(-1), weights=std / cuts.force) / count
+    return np.interp(np.log(radius), np.log(known), share)

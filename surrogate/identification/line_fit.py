@@ -1,0 +1,158 @@
+"""Toughness and wear strength where the force is linear in both: one weighted least squares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.choosing.by_name import force_model
+from surrogate.contact.closed_forms import ClosedForm
+from surrogate.errors import InputError
+from surrogate.identification.inputs import Cuts
+
+__all__ = ["LinearFit", "fit_line", "is_linear", "linear_form", "solve_least_squares"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearFit:
+    """Solution of a least-squares problem whose values have unit variance.
+
+    Parameters
+    ----------
+    estimate : ndarray, shape (p,)
+        The unknowns.
+    covariance : ndarray, shape (p, p)
+        Their covariance for values of unit variance.
+    leverage : ndarray, shape (n,)
+        Weight of each value in its own prediction, between 0 and 1.
+    condition : float
+        Condition number of the design matrix with columns of unit length.
+    """
+
+    estimate: Array
+    covariance: Array
+    leverage: Array
+    condition: float
+
+
+def solve_least_squares(design: Array, values: Array) -> LinearFit:
+    """Minimise |design x - values| by QR on columns scaled to unit length.
+
+    Scaling makes the condition number, and so the digits that are left, independent of the
+    unknowns' units.
+
+    Parameters
+    ----------
+    design : ndarray, shape (n, p)
+        Derivative of each value with respect to each unknown, n >= p.
+    values : ndarray, shape (n,)
+        The values to meet.
+
+    Returns
+    -------
+    LinearFit
+        Unknowns, covariance, leverages and condition; all nan where the columns are
+        linearly dependent.
+
+    References
+    ----------
+    A. Bjorck, Numerical Methods for Least Squares Problems, SIAM 1996, sections 2.4 and 2.9.
+
+    Examples
+    --------
+    >>> fit = solve_least_squares(np.array([[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]), np.arange(3.0))
+    >>> print(np.round(fit.estimate, 12) + 0.0)
+    [0. 1.]
+    """
+    scale = np.linalg.norm(design, axis=0)
+    q, r = np.linalg.qr(design / scale)
+    condition = float(np.linalg.cond(r))
+    if not condition < 1.0 / np.finfo(float).eps:
+        unknown = np.full(design.shape[1], np.nan)
+        return LinearFit(unknown, np.outer(unknown, unknown), values * np.nan, np.inf)
+    inverse = np.linalg.inv(r) / scale[:, np.newaxis]
+    return LinearFit(inverse @ (q.T @ values), inverse @ inverse.T, np.sum(q**2, axis=1), condition)
+
+
+def is_linear(model: str) -> bool:
+    """Return whether the force of a model is linear in toughness and wear strength.
+
+    Examples
+    --------
+    >>> is_linear("eq13"), is_linear("eq9")
+    (True, False)
+    """
+    chosen = force_model(model)
+    return isinstance(chosen, ClosedForm) and chosen.arc_2 > 0.0
+
+
+def linear_form(
+    model: str, radius: Array, shear_modulus: float, friction: float
+) -> tuple[Array, Array]:
+    """Return columns and offset with F_ss/T = offset + columns @ (toughness, wear_strength).
+
+    Raises
+    ------
+    InputError
+        If the model is not linear in both.
+
+    Examples
+    --------
+    >>> columns, offset = linear_form("eq13", np.array([1e-4]), 685.0, 0.1)
+    >>> print(columns, offset)
+    [[1.1e+00 4.0e-04]] [0.0274]
+    """
+    chosen = force_model(model)
+    if not isinstance(chosen, ClosedForm) or not is_linear(model):
+        raise InputError(
+            f"model {model!r} is not linear in both toughness and wear strength, so that it "
+            "cannot be fitted here; choose 'eq13', 'low-toughness' or 'friction-free'."
+        )
+    columns = np.empty((*radius.shape, 2))
+    columns[..., 0] = 1.0 + friction * chosen.load_2_slope
+    columns[..., 1] = chosen.arc_2 * radius
+    return columns, chosen.load_2 * (friction * shear_modulus * radius)
+
+
+def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
+    """Return what the fit of a straight line says, by the names of an `Identification`.
+
+    Raises
+    ------
+    InputError
+        If the radii are the same but for rounding.
+
+    Examples
+    --------
+    >>> radius, force = np.array([1e-4, 2e-4, 3e-4]), np.array([3.0, 5.0, 7.0])
+    >>> fit = fit_line(Cuts(radius, force, None, 685.0, 0.0, 2.0), "eq13")
+    >>> print(f"{fit['toughness']:.6f} {fit['wear_strength']:.3f}")
+    1.000000 5000.000
+    """
+    columns, offset = linear_form(
+        model, cuts.wire_radius, cuts.shear_modulus, cuts.friction_coefficient
+    )
+    weight, target = cuts.weight, cuts.force - offset
+    fit = solve_least_squares(columns * weight[:, np.newaxis], target * weight)
+    if not np.isfinite(fit.condition):
+        smallest, largest = cuts.wire_radius.min(), cuts.wire_radius.max()
+        raise InputError(
+            f"the radii differ by rounding only ({smallest:.17g} to {largest:.17g} m): "
+            "toughness and wear cannot be told apart; cut with at least two different wires."
+        )
+    residuals = target - columns @ fit.estimate
+    return {
+        "toughness": float(fit.estimate[0]),
+        "wear_strength": float(fit.estimate[1]),
+        "residuals": residuals,
+        "misfit": float(np.sum((residuals * weight) ** 2)),
+        "unit_covariance": fit.covariance,
+        "condition": fit.condition,
+        "leverage": fit.leverage,
+        "model_error": None,
+    }

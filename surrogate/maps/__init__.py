@@ -1,0 +1,1 @@
+"""Regime maps: axes, scenes, boundaries, tables, figures."""

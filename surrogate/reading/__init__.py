@@ -1,0 +1,1 @@
+"""What people have in files: measurements, materials, units, and whether they can be meant."""
