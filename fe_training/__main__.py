@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,17 +20,33 @@ if TYPE_CHECKING:
     from fe_training.solver.equilibrium import State
     from fe_training.solver.record import Record
 
+from fe_training.solver.json_file import write_json
+
+__all__ = ["main"]
+
 _NAME = "python -m fe_training"
+
+
 _RESOLUTIONS = ("coarse", "standard", "fine")
+
+
 _PICTURES = (".png", ".pdf", ".svg")
+
+
 _STUDIES = ("range", "mesh", "truncation", "contact", "parameters", "checks")
+
+
 #: Packages of the extra `train`.
 _EXTRA = {"scipy", "skfem", "sklearn", "joblib", "h5py", "tqdm", "matplotlib"}
+
+
 #: Relative difference between the wanted and the reached g that is pointed out.
 _CLOSE = 1e-3
 
+
 _OVERVIEW = """\
 Finite-element solutions of a rigid wire in the crack of a soft solid (arXiv:2412.02021)."""
+
 
 _SOLVE = """\
 Solve configurations of a rigid wire in the crack of an incompressible Ogden solid.
@@ -42,6 +56,7 @@ Lengths are in wire radii R_w, stresses in the shear modulus mu.  A configuratio
   distance         delta/R_w, from the wire's centre to the crack tip, deformed
   insertion        x_w/R_w, position of the wire's centre; the unloaded tip is at 0
 """
+
 
 _EXAMPLE = """\
 examples:
@@ -61,6 +76,7 @@ the table:
 exit codes: 0 all reached, 1 some not reached, 2 bad input or a package missing
 """
 
+
 _VERIFY = """\
 Verify the engine by its own studies, each one held against its bounds.
 
@@ -74,6 +90,7 @@ Verify the engine by its own studies, each one held against its bounds.
 Every solution is written to records.jsonl in the folder as soon as it is there: stop the command
 whenever you like and give it again, and it goes on where it was.  Tables, figures and summary.md
 are made of that file.  Studies that compare take their reference from `range`."""
+
 
 _VERIFY_EXAMPLE = """\
 examples:
@@ -196,9 +213,10 @@ def _count(text: str) -> int:
 
 def _verify(options: argparse.Namespace) -> int:
     from fe_training.solver.solve import ALPHA_RANGE
+    from fe_training.verification.cases import cases_of, full_scope, quick_scope
     from fe_training.verification.report import summary_table, write_report
     from fe_training.verification.run import estimated_seconds, read_solved, solve_cases
-    from fe_training.verification.studies import cases_of, full_scope, judged, quick_scope
+    from fe_training.verification.studies import judged
 
     scope = quick_scope() if options.quick else full_scope()
     if options.alpha:
@@ -239,12 +257,12 @@ def _solve(options: argparse.Namespace) -> int:
     wanted = _wanted(options)
     _write(_table(records, wanted))
     if options.json:
-        _write_json(options, records, wanted)
+        write_json(options.json, options.resolution, records, wanted)
     if options.plot:
         _draw(options.plot, records, settings)
     for record, target in zip(records, wanted, strict=True):
         _remark(record, target)
-    return 0 if all(_is_reached(record) for record in records) else 1
+    return 0 if all(record.is_reached for record in records) else 1
 
 
 def _wanted(options: argparse.Namespace) -> list[tuple[str, float]]:
@@ -278,17 +296,13 @@ def _records(options: argparse.Namespace, settings: Settings) -> list[Record]:
     with tqdm(total=len(options.g), desc=f"alpha = {options.alpha:g}", unit="conf") as bar:
 
         def report(record: Record) -> None:
-            if _is_reached(record):
+            if record.is_reached:
                 bar.set_postfix_str(f"g = {record.energy_release_rate:.4g}")
             bar.update()
 
         return solve_path(
             options.alpha, options.g, settings, report, options.shift, options.mesh_error
         )
-
-
-def _is_reached(record: Record) -> bool:
-    return math.isfinite(record.energy_release_rate)
 
 
 def _write(text: str) -> None:
@@ -301,7 +315,7 @@ def _table(records: Sequence[Record], wanted: Sequence[tuple[str, float]]) -> st
     rows = [head]
     for record, (name, value) in zip(records, wanted, strict=True):
         outcome = record.outcome.name.lower().replace("_", " ")
-        if not _is_reached(record):
+        if not record.is_reached:
             rows.append((f"{value:.4g}" if name == "g" else "-", *6 * ("-",), outcome))
             continue
         rows.append(
@@ -331,7 +345,7 @@ def _remark(record: Record, wanted: tuple[str, float]) -> None:
         reason = f" ({record.reason})" if record.reason else ""
         remarks.append(f"{outcome.meaning}{reason}; {outcome.remedy}")
     J = record.energy_release_rate
-    if name == "g" and _is_reached(record) and abs(J / value - 1.0) > _CLOSE:
+    if name == "g" and record.is_reached and abs(J / value - 1.0) > _CLOSE:
         remarks.append(f"J/(mu R_w) = {J:.6g} is what the search ended with")
     for remark in remarks:
         sys.stderr.write(f"fe_training: {name} = {value:g}: {remark}\n")
@@ -364,49 +378,9 @@ def _check_files(options: argparse.Namespace) -> None:
         require_matplotlib()
 
 
-def _write_json(
-    options: argparse.Namespace, records: Sequence[Record], wanted: Sequence[tuple[str, float]]
-) -> None:
-    from surrogate import __version__
-
-    content = {
-        "wirecut": __version__,
-        "units": "lengths in R_w, stresses in mu, forces per thickness in mu R_w, angles in rad",
-        "resolution": options.resolution,
-        "configurations": [
-            {
-                "wanted": {name: value},
-                "reached": _is_reached(record),
-                **{field.name: _plain(getattr(record, field.name)) for field in fields(record)},
-                "arc": _plain(record.arc),
-                "normal_load": _plain(record.normal_load),
-                "force_mismatch": _plain(record.force_mismatch),
-            }
-            for record, (name, value) in zip(records, wanted, strict=True)
-        ],
-    }
-    try:
-        Path(options.json).write_text(json.dumps(content, indent=1, allow_nan=False) + "\n")
-    except OSError as error:
-        raise InputError(f"{options.json} cannot be written ({error.strerror}).") from None
-
-
-def _plain(value: Any) -> Any:
-    """Return what JSON knows: lists for arrays, names for outcomes, null for nan."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return getattr(value, "name", value)
-
-
 def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
     """Draw the configuration of the largest g, J against distance, and the stress ahead."""
-    reached = [record for record in records if _is_reached(record)]
+    reached = [record for record in records if record.is_reached]
     if not reached:
         sys.stderr.write(f"fe_training: nothing was reached, {file} is not drawn\n")
         return
@@ -453,8 +427,6 @@ def _again(record: Record, settings: Settings) -> tuple[Body, State]:
     start = previous or state
     return cut.body, cut.last(start, Control.POSITION, record.insertion, Steps(0.1, 0.2))
 
-
-__all__ = ["main"]
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -15,17 +15,26 @@ from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 
 
 def plain(function):
-    """Return the function with Python floats for numbers, without numpy's warnings."""
+    """Return the function with Python floats for numbers, without numpy's warnings.
+
+    Numbers are evaluated as arrays of one: a power of numbers may differ from one of arrays.
+    """
 
     @wraps(function)
     def call(self, g, alpha):
+        shape = np.broadcast_shapes(np.shape(g), np.shape(alpha))
+        g, alpha = (np.atleast_1d(np.asarray(each, dtype=float)) for each in (g, alpha))
         with np.errstate(all="ignore"):
-            result = function(self, np.asarray(g, dtype=float), alpha)
-        numbers = result if isinstance(result, tuple) else (result,)
-        numbers = tuple(each if np.ndim(each) else float(each) for each in numbers)
-        return numbers if isinstance(result, tuple) else numbers[0]
+            result = function(self, g, alpha)
+        if isinstance(result, tuple):
+            return tuple(_shaped(each, shape) for each in result)
+        return _shaped(result, shape)
 
     return call
+
+
+def _shaped(values, shape):
+    return values if shape and np.ndim(values) else float(np.asarray(values).reshape(-1)[0])
 
 
 class TestModel(ForceModel):

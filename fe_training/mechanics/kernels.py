@@ -5,7 +5,8 @@ Both integrate, on every triangle, the weak form
     R(v) = int P(H, p) : grad v,        R(q) = int (det F - 1) q,
 
 and its linearisation.  The compiled loop is used where numba is installed; the twin calls
-:mod:`fe_training.mechanics.ogden` on whole arrays.  They agree to rounding.
+:mod:`fe_training.mechanics.ogden` on whole arrays.  They agree to rounding.  More than 450 lines
+because the twins stand side by side.
 
 Local unknowns of a triangle: the two displacement components of each of its nodes, node by node,
 then its pressures.

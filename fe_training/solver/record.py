@@ -151,6 +151,11 @@ class Record:
     ahead_stress: Array = field(default_factory=lambda: np.empty(0))
 
     @property
+    def is_reached(self) -> bool:
+        """Whether there is an equilibrium, within its evidence or not."""
+        return bool(np.isfinite(self.energy_release_rate))
+
+    @property
     def arc(self) -> float:
         """A = cos(theta_1) - cos(theta_2) [-]."""
         return float(np.cos(self.theta_1) - np.cos(self.theta_2))

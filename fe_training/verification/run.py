@@ -22,7 +22,7 @@ from typing import Any
 from fe_training.campaign.workers import Workers, backend, use_one_thread
 from fe_training.solver import solve as engine
 from fe_training.solver.record import Outcome, Record
-from fe_training.verification.studies import Case, Solved
+from fe_training.verification.cases import Case, Solved
 from surrogate.errors import InputError, WirecutError
 
 __all__ = ["estimated_seconds", "fingerprint", "read_solved", "solve_cases", "tasks_of"]

@@ -212,8 +212,6 @@ def fracto_cohesive_transition_radius(
 
 
 def _under(chosen: ForceModel, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
-    from surrogate.cutting.transition_radius import transition_under  # which a force does not need
-
     chosen.stiffening.checked(quantities[4])
     return transition_under(chosen, quantities)
 

@@ -79,8 +79,6 @@ class RegimeMap(MapRecord):
 
     def _repr_html_(self) -> str:
         """What notebooks show."""
-        from surrogate.maps.make import html_of_map
-
         return html_of_map(self)
 
     def to_csv(self, file: str | PathLike[str]) -> None:

@@ -5,13 +5,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from designs import SMALL
 
 from fe_training.campaign.design import STRATEGIES, CampaignDesign, read_design
 from fe_training.solver.cut import Settings
 from surrogate.basics.files import model_file
 from surrogate.errors import InputError
-
-from .conftest import SMALL
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from designs import SMALL
 from fake_engine import record, run
 
 from fe_training.campaign import store as storing
@@ -19,8 +20,6 @@ from fe_training.campaign.store import (
 )
 from fe_training.solver.record import Outcome, Record
 from surrogate.errors import InputError
-
-from .conftest import SMALL
 
 ONE = Configuration("coarse", 2.0, 0.1)
 SOLVED = Row(ONE, 0, 1, {"wirecut": "0"}, record(2.0, 0.1))

@@ -26,8 +26,8 @@ from .part import Part
 
 __all__ = ["damage", "kinds"]
 
-CAMPAIGN = Path(__file__).resolve().parent.parent / "campaign"
-sys.path.insert(0, str(CAMPAIGN))
+HELPERS = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(HELPERS))
 
 from fake_engine import record  # noqa: E402 (found by the line above)
 

@@ -25,12 +25,12 @@ from .part import Part
 
 __all__ = ["faults"]
 
-CAMPAIGN = Path(__file__).resolve().parent.parent / "campaign"
-sys.path.insert(0, str(CAMPAIGN))
+HELPERS = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(HELPERS))
 
 from fake_engine import run  # noqa: E402 (found by the line above)
 
-ENGINE = CAMPAIGN / "fake_engine.py"
+ENGINE = HELPERS / "fake_engine.py"
 MEMORY = Path("/dev/shm")
 """Where stores are kept if possible: rows are flushed to the disk one by one, which takes time."""
 SECONDS, PAUSE, SLOW = 120, "0.04", "0.5"
@@ -112,7 +112,7 @@ class Trial:
                 env={**os.environ, "FAKE_SECONDS": seconds},
                 stdout=subprocess.DEVNULL,
                 stderr=said,
-                cwd=CAMPAIGN.parent.parent,
+                cwd=HELPERS.parent,
                 start_new_session=True,
             )
 

@@ -8,7 +8,7 @@ from surrogate.errors import InputError
 
 __all__ = ["install"]
 
-MADE_UP = Path(__file__).resolve().parent.parent / "fit"
+HELPERS = Path(__file__).resolve().parent.parent
 
 
 def install(folder):
@@ -36,7 +36,7 @@ def install(folder):
 def _made_up(folder):
     from fe_training.fitting.fit import fit, write_fitted
 
-    sys.path.insert(0, str(MADE_UP))
+    sys.path.insert(0, str(HELPERS))
     from made_up import points
 
     folder.mkdir(parents=True, exist_ok=True)

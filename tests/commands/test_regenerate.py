@@ -25,7 +25,7 @@ from fe_training.regenerate import main
 from fe_training.solver.record import Outcome, Record
 from surrogate.basics.files import model_file
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 #: Two configurations on one path; meshes as coarse as the engine endures.
 TINY = """\

@@ -43,7 +43,7 @@ from matplotlib.figure import Figure  # noqa: E402
 def data_file(tmp_path_factory):
     """A data set of made-up numbers with the paper's exponents."""
     folder = tmp_path_factory.mktemp("made-up")
-    text = (Path(__file__).parent / "conftest.py").read_text().partition('SMALL = """\\\n')[2]
+    text = (Path(__file__).parents[1] / "designs.py").read_text().partition('SMALL = """\\\n')[2]
     (folder / "design.toml").write_text(text.partition('"""')[0].replace("[2, 5]", "[2, 5, 9]"))
     design = read_design(folder / "design.toml")
     return write_campaign(folder / "campaign.h5", design, run(design, folder / "store"))
@@ -154,7 +154,7 @@ def test_everything_with_fitted_models(data_file, script, tmp_path, monkeypatch,
     import surrogate.contact.shipped
     from fe_training.fitting.fit import fit, write_fitted
 
-    points = runpy.run_path(str(ROOT / "tests" / "fit" / "made_up.py"))["points"]
+    points = runpy.run_path(str(ROOT / "tests" / "made_up.py"))["points"]
     (tmp_path / "models").mkdir()
     fitted = write_fitted(tmp_path / "models", fit(points(), {"origin": "made up"}))
     monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted.parent)

@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from fe_training.mechanics.analytic import far_field_wedge
-from fe_training.solver import pictures as plots
 from fe_training.solver.cut import RESOLUTIONS
 from fe_training.solver.pictures import (
     plot_configuration,

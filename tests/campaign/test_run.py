@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 from fake_engine import record, run, solve_path
 
-from fe_training.campaign import run as campaign
 from fe_training.campaign.design import STRATEGIES
 from fe_training.campaign.run import plan
 from fe_training.campaign.store import Store
@@ -212,7 +211,7 @@ except WirecutError as error:
 
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
 def test_a_process_that_dies_is_reported_in_words(small_file, tmp_path):
-    here = str(Path(__file__).parent)
+    here = str(Path(__file__).parents[1])
     command = [sys.executable, "-c", DIE, str(small_file), str(tmp_path / "store"), here]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert "a process died" in done.stdout, done.stderr
@@ -223,7 +222,7 @@ def test_a_process_that_dies_is_reported_in_words(small_file, tmp_path):
 def dask_process(tmp_path):
     """Return a function that starts a Dask scheduler or worker on the loopback address."""
     pytest.importorskip("distributed", reason="Dask is not installed")
-    path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
+    path = os.pathsep.join([str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     started = []
 
     def start(kind, *arguments, **environment):

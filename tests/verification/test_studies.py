@@ -17,24 +17,12 @@ from fe_training.mechanics.analytic import far_field_wedge
 from fe_training.solver import solve as engine
 from fe_training.solver.cut import Settings
 from fe_training.solver.record import EVIDENCE_BOUND, Outcome, Record
-from fe_training.verification import (
-    report as verify_report,
-)
-from fe_training.verification import (
-    run as verify_run,
-)
-from fe_training.verification import (
-    studies as verify,
-)
-from fe_training.verification.studies import (
-    STUDIES,
-    Case,
-    Solved,
-    cases_of,
-    full_scope,
-    judged,
-    quick_scope,
-)
+from fe_training.verification import figures as verify_figures
+from fe_training.verification import report as verify_report
+from fe_training.verification import run as verify_run
+from fe_training.verification import studies as verify
+from fe_training.verification.cases import STUDIES, Case, Solved, cases_of, full_scope, quick_scope
+from fe_training.verification.studies import judged
 from surrogate.errors import InputError
 
 #: Factor of sqrt(g R_w/L), relative difference of J between meshes, that the fake engine has.
@@ -108,7 +96,7 @@ def fakes(monkeypatch):
 
 @pytest.fixture
 def no_figures(monkeypatch):
-    monkeypatch.setattr(verify_report, "_draw", lambda folder, result: [])
+    monkeypatch.setattr(verify_report, "draw_study", lambda folder, result: [])
 
 
 def solutions(studies, scope, of=fake):
@@ -350,7 +338,7 @@ def test_a_figure_marks_what_breaks_the_bound_and_what_was_not_reached():
         return {0.5: fake(alpha, g, settings), 1.0: off, 2.0: stalled(alpha, g)}[g]
 
     result = judged("range", scope, solutions(["range"], scope, mixed))
-    ax = verify_report.plot_measure(result, "|J-2F_h|/J", Figure().add_subplot())
+    ax = verify_figures.plot_measure(result, "|J-2F_h|/J", Figure().add_subplot())
     hollow = [x for line in ax.lines if line.get_mfc() == "white" for x in line.get_xdata()]
     crosses = [x for line in ax.lines if line.get_marker() == "x" for x in line.get_xdata()]
     assert hollow == [1.0]

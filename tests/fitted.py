@@ -1,17 +1,11 @@
 """Models fitted once to a made-up contact, and installed in the place of the shipped ones."""
 
-import sys
-from pathlib import Path
-
 import pytest
 
 import surrogate.choosing.catalogue
 import surrogate.contact.shipped
 from fe_training.fitting import process as fit_gp
 from fe_training.fitting.fit import fit, write_fitted
-
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))  # for `made_up`
 
 
 @pytest.fixture(scope="session", autouse=True)
