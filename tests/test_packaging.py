@@ -71,6 +71,8 @@ def test_wheel(checkout, tmp_path):
         archive.extractall(site)
     assert {"surrogate/py.typed", "surrogate/models/paam-material.json"} <= names
     assert not [name for name in names if name.startswith(("tests", "models", "scripts"))]
+    assert not [name for name in names if name.endswith(".h5")]
+    assert wheel.stat().st_size < 1_000_000
     module, file = probe(f"sys.path.insert(0, {str(site)!r})", tmp_path)
     assert module.is_relative_to(site)
     assert file == site / "surrogate" / "models" / "paam-wire-cutting.csv"

@@ -21,7 +21,7 @@ from fe_training.campaign.design import CampaignDesign
 from fe_training.campaign.evidence import point_columns
 from fe_training.campaign.store import Row, write_atomically
 from fe_training.solver.record import Outcome, Record
-from surrogate.basics.files import checksum_line, file_name, model_file
+from surrogate.basics.files import checksum_line, file_name, models_folder
 from surrogate.errors import InputError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -299,7 +299,7 @@ def load_campaign(path: str | os.PathLike[str] | None = None) -> Campaign:
     """
     import h5py
 
-    file = Path(file_name(path)) if path is not None else model_file("campaign.h5")
+    file = Path(file_name(path)) if path is not None else models_folder() / "campaign.h5"
     require_checksum(file)
     try:
         with h5py.File(file, "r") as content:
@@ -339,8 +339,9 @@ def require_checksum(file: Path) -> None:
         expected = beside.read_bytes().split()[:1]
     except OSError as error:
         raise InputError(
-            f"{error.filename} cannot be read ({error.strerror}); a data set is two files, made by "
-            "regen-surrogate."
+            f"{error.filename} cannot be read ({error.strerror}); a data set is two files. A wheel "
+            "has none: take a clone or the source distribution (pip download --no-deps --no-binary "
+            ":all: wirecut), or make them anew with regen-surrogate."
         ) from None
     if [checksum] != expected:
         raise InputError(

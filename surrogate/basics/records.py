@@ -23,8 +23,6 @@ class Shown:
 
     def _repr_html_(self) -> str:
         """What notebooks show."""
-        from surrogate.basics.records import html_of_record
-
         return html_of_record(self)
 
 
