@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import math
 import os
-import sys
-import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,13 +19,7 @@ import numpy as np
 from fe_training.campaign.design import STRATEGIES, CampaignDesign, Configuration, Task
 from fe_training.campaign.software import software
 from fe_training.campaign.store import Row, Store
-from fe_training.campaign.workers import (
-    LOOK,
-    LOOK_FOR_FILE,
-    Workers,
-    backend,
-    use_one_thread,
-)
+from fe_training.campaign.workers import Workers, backend, use_one_thread, watched
 from fe_training.solver.cut import Settings
 from fe_training.solver.record import Outcome, Record
 from fe_training.solver.solve import solve_path
@@ -232,15 +224,10 @@ def _asked_for(record: Record, passed: Sequence[Configuration]) -> Configuration
     return min(passed, key=lambda one: abs(math.log(one.target / record.target)))
 
 
-@contextmanager
-def _watched(store: Store, seconds: Mapping[Configuration, float]) -> Iterator[None]:
-    """Show a bar that counts rows as they come into the store, by their estimated time."""
-    from tqdm import tqdm
-
+def _watched(store: Store, seconds: Mapping[Configuration, float]) -> AbstractContextManager[None]:
+    """Return a bar that counts rows as they come into the store, by their estimated time."""
     waiting = {one: store.stamp(one) for one in seconds}
     total = sum(seconds.values())
-    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, {remaining} left"
-    ended = threading.Event()
 
     def look(bar: Any) -> None:
         for one in [one for one, stamp in waiting.items() if store.stamp(one) != stamp]:
@@ -248,16 +235,5 @@ def _watched(store: Store, seconds: Mapping[Configuration, float]) -> Iterator[N
         bar.n = total - sum(seconds[one] for one in waiting)
         bar.set_description_str(f"{len(seconds) - len(waiting)}/{len(seconds)} rows")
 
-    def watch(bar: Any) -> None:
-        while not ended.wait(LOOK if sys.stderr.isatty() else LOOK_FOR_FILE):
-            look(bar)
-
-    with tqdm(total=total, bar_format=form) as bar:
-        watcher = threading.Thread(target=watch, args=(bar,), daemon=True)
-        watcher.start()
-        try:
-            yield
-        finally:
-            ended.set()
-            watcher.join()
-            look(bar)
+    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, {remaining} left"
+    return watched(total, form, look)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+import sys
+import threading
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
+from typing import Any
 
 from surrogate.errors import InputError, MissingExtraError, WirecutError
 
-__all__ = ["Workers"]
+__all__ = ["Workers", "backend", "use_one_thread", "watched"]
 
 #: Threads of the libraries in each process: with one, the data do not depend on the machine's load.
 _ONE_THREAD = {
@@ -21,7 +24,7 @@ _ONE_THREAD = {
 }
 
 #: How often finished rows are looked for, on a terminal and where the bar goes to a file [s].
-LOOK, LOOK_FOR_FILE = 0.5, 60.0
+_LOOK, _LOOK_FOR_FILE = 0.5, 60.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,3 +87,25 @@ def backend(workers: Workers) -> Iterator[None]:
                 yield
         except KilledWorker as error:
             raise WirecutError(f"workers died again and again ({error}); {again}.") from None
+
+
+@contextmanager
+def watched(total: float, form: str, look: Callable[[Any], None]) -> Iterator[None]:
+    """Show a bar which a thread brings up to date, by `look`, until the work in it is done."""
+    from tqdm import tqdm
+
+    ended = threading.Event()
+
+    def watch(bar: Any) -> None:
+        while not ended.wait(_LOOK if sys.stderr.isatty() else _LOOK_FOR_FILE):
+            look(bar)
+
+    with tqdm(total=total, bar_format=form) as bar:
+        watcher = threading.Thread(target=watch, args=(bar,), daemon=True)
+        watcher.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            watcher.join()
+            look(bar)

@@ -11,15 +11,13 @@ import hashlib
 import json
 import math
 import os
-import sys
-import threading
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from fe_training.campaign.workers import Workers, backend, use_one_thread
+from fe_training.campaign.workers import Workers, backend, use_one_thread, watched
 from fe_training.solver import solve as engine
 from fe_training.solver.record import Outcome, Record
 from fe_training.verification.cases import Case, Solved
@@ -42,9 +40,6 @@ _ON_PATH, _APART, _START, _SECTORS, _SPACING = 16.0, 45.0, 12.0, 28, 0.05
 
 #: Errors that are not about a case: they end the run instead of becoming a line.
 _FATAL = (WirecutError, ImportError, NameError, MemoryError, OSError)
-
-#: How often new lines are looked for, on a terminal and where the bar goes to a file [s].
-LOOK, LOOK_FOR_FILE = 0.5, 60.0
 
 
 @functools.cache
@@ -251,15 +246,12 @@ def solve_task(task: Sequence[Case], file: str, driver: int) -> None:
         keep(case, Record(case.alpha, Outcome.STALLED, target=target, reason=reason), error=True)
 
 
-@contextmanager
-def _watched(file: Path, left: Sequence[Case]) -> Iterator[None]:
-    """Show a bar that counts cases as their lines come into the file, by their estimated time."""
-    from tqdm import tqdm
-
+def _watched(file: Path, left: Sequence[Case]) -> AbstractContextManager[None]:
+    """Return a bar that counts cases as their lines come into the file, by their estimated time."""
     seconds: Mapping[str, float] = {case.key: _case_seconds(case) for case in left}
     total = sum(seconds.values())
     form = "{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, {remaining} left {postfix}"
-    ended, start, finished = threading.Event(), file.stat().st_size, 0
+    start, finished = file.stat().st_size, 0
 
     def look(bar: Any) -> None:
         nonlocal start, finished
@@ -280,16 +272,4 @@ def _watched(file: Path, left: Sequence[Case]) -> Iterator[None]:
             bar.set_postfix_str(f"{where}: {row[1].outcome}", refresh=False)
         bar.set_description_str(f"{finished}/{len(left)}")
 
-    def watch(bar: Any) -> None:
-        while not ended.wait(LOOK if sys.stderr.isatty() else LOOK_FOR_FILE):
-            look(bar)
-
-    with tqdm(total=total, bar_format=form) as bar:
-        watcher = threading.Thread(target=watch, args=(bar,), daemon=True)
-        watcher.start()
-        try:
-            yield
-        finally:
-            ended.set()
-            watcher.join()
-            look(bar)
+    return watched(total, form, look)

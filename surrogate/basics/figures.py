@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from os import PathLike
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from surrogate.basics.checks import shown
+from surrogate.basics.extras import require_extra
 from surrogate.basics.files import file_name
-from surrogate.errors import InputError, WirecutError
+from surrogate.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,10 +62,7 @@ def require_matplotlib() -> None:
     --------
     >>> require_matplotlib()
     """
-    if find_spec("matplotlib") is None:
-        raise WirecutError(
-            "drawing needs matplotlib; install it with: pip install 'wirecut[plot]'."
-        )
+    require_extra("matplotlib", "drawing", "plot")
 
 
 def picture_file(file: str | PathLike[str]) -> str:

@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.checks import RTOL, FloatOrArray, common_shape, one_number
+from surrogate.basics.checks import FloatOrArray, common_shape
 from surrogate.basics.elementwise import product, quotient
+from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.catalogue import by_cost
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
@@ -97,7 +98,7 @@ def choose_terms(
     g: Array,
     alpha: Array,
     parts: Sequence[Array],
-    rtol: object,
+    rtol: float,
     fitted: Fitted | None = None,
     refuse: bool = True,
 ) -> Chosen:
@@ -121,7 +122,6 @@ def choose_terms(
     AccuracyError
         If no model is as exact; the message names the best one.
     """
-    tolerance = one_number(RTOL, rtol)
     models, bounds = available(fitted)
     cleavage, estimates = parts[0], dict(zip(TERMS, parts[1:], strict=True))
     with np.errstate(all="ignore"):
@@ -129,14 +129,12 @@ def choose_terms(
         low = cleavage + sum(estimates[name] * np.exp(-free[name]) for name in TERMS)
         worst = {name: _share(estimates[name] * np.expm1(free[name]), low) for name in TERMS}
         together = worst[TERMS[0]] + worst[TERMS[1]]
-        needed = {
-            name: (together > tolerance) & (worst[name] > NEGLIGIBLE * tolerance) for name in TERMS
-        }
+        needed = {name: (together > rtol) & (worst[name] > NEGLIGIBLE * rtol) for name in TERMS}
         left = sum(np.where(needed[name], 0.0, worst[name]) for name in TERMS)
         share = {n: _share(estimates[n] * np.exp(free[n]), low) for n in TERMS}
         found = [together]
         for model in models[1:]:
-            if _met(found, tolerance):
+            if _met(found, rtol):
                 break
             errors = [
                 np.where(needed[n], _bound(bounds, model.name, n, g, alpha, estimates[n]), 0.0)
@@ -148,21 +146,20 @@ def choose_terms(
             )
             # a weighted mean of errors is not above the largest of them
             found.append(np.minimum(arc + load, np.expm1(np.maximum(*errors))) + left)
-    return _chosen(models, np.array(found), needed, tolerance, g, alpha, refuse)
+    return _chosen(models, np.array(found), needed, rtol, g, alpha, refuse)
 
 
-def choose_contact(g: Array, alpha: Array, rtol: object) -> Chosen:
+def choose_contact(g: Array, alpha: Array, rtol: float) -> Chosen:
     """Return models for A, B and delta at points, each of them within rtol."""
-    tolerance = one_number(RTOL, rtol)
     models, bounds = available()
     found: list[Array] = []
     for model in models:
-        if found and _met(found, tolerance):
+        if found and _met(found, rtol):
             break
         largest = np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0)
         found.append(np.expm1(largest))
     everywhere = dict.fromkeys(QUANTITIES, np.ones(len(g), bool))
-    return _chosen(models, np.array(found), everywhere, tolerance, g, alpha)
+    return _chosen(models, np.array(found), everywhere, rtol, g, alpha)
 
 
 def bounded(model: ForceModel, g: Array, alpha: Array) -> Array:
@@ -177,9 +174,9 @@ def _bound(bounds: Bounds, model: str, name: str, g: Array, alpha: Array, term: 
     return np.asarray(np.where(term == 0.0, 0.0, bounds.at(model, name, g, alpha)))
 
 
-def _met(found: Sequence[Array], tolerance: float) -> bool:
+def _met(found: Sequence[Array], rtol: float) -> bool:
     """Return whether some model is exact enough at every point, so that no other is asked."""
-    return bool(np.all(np.min(found, axis=0) <= tolerance))
+    return bool(np.all(np.min(found, axis=0) <= rtol))
 
 
 def _share(term: Array, total: Array) -> Array:
@@ -190,12 +187,12 @@ def _chosen(
     models: list[ForceModel],
     found: Array,
     needed: dict[str, NDArray[np.bool_]],
-    tolerance: float,
+    rtol: float,
     g: Array,
     alpha: Array,
     refuse: bool = True,
 ) -> Chosen:
-    meets = found <= tolerance
+    meets = found <= rtol
     code = np.where(np.any(meets, axis=0), np.argmax(meets, axis=0), np.argmin(found, axis=0))
     outside = ~np.any(np.isfinite(found), axis=0)
     short = ~np.any(meets, axis=0) & ~outside
@@ -204,7 +201,7 @@ def _chosen(
         best = int(np.argmin(found[:, point]))
         error = found[best, point]
         raise AccuracyError(
-            f"rtol must be met by a model, but rtol = {tolerance:g} is not at g = {g[point]:.4g}, "
+            f"rtol must be met by a model, but rtol = {rtol:g} is not at g = {g[point]:.4g}, "
             f"alpha = {alpha[point]:.4g} ({np.count_nonzero(short)} of {short.size} points), where "
             f"the best is {models[best].name!r} with an error of up to {error:.2g}; "
             f"give rtol={rounded_up(error)} or more."
@@ -227,13 +224,9 @@ def rounded_up(error: float) -> str:
     return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"
 
 
-AUTO = "auto"
-"""The model that stands for the cheapest one that is exact enough."""
-
-
 def automatic_terms(
     values: tuple[FloatOrArray, ...],
-    rtol: object,
+    rtol: float,
     extrapolate: bool,
     of_dissipation: bool = False,
     fitted: Fitted | None = None,
@@ -302,7 +295,7 @@ def automatic_terms(
 def automatic_contact(
     evaluate: Callable[[ForceModel, tuple[Any, Any]], Any],
     values: tuple[FloatOrArray, FloatOrArray],
-    rtol: object,
+    rtol: float,
 ) -> tuple[Chosen, tuple[int, ...], list[tuple[Any, Any]]]:
     """Return the choice for g and alpha, their shape, and for each model used mask and result."""
     shape = common_shape(values)

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import shown
+from surrogate.basics.extras import require_extra
 from surrogate.basics.files import write_csv
 from surrogate.choosing.by_name import force_model
-from surrogate.errors import InputError, WirecutError
+from surrogate.errors import InputError
 from surrogate.identification.fit import Identification
 from surrogate.identification.inputs import PREDICTED_RADIUS
 from surrogate.identification.line_fit import is_linear
@@ -104,12 +105,9 @@ def curve_dataset(
         If xarray is not installed.
     """
     columns = _curve(identification, wire_radius)
-    try:
-        import xarray
-    except ImportError:
-        raise WirecutError(
-            "a labelled data set needs xarray; install it with: pip install 'wirecut[tables]'."
-        ) from None
+    require_extra("xarray", "a labelled data set", "tables")
+    import xarray
+
     (radius, unit), values = next(iter(columns.items()))
     return xarray.Dataset(
         {name: (radius, each, {"units": u}) for (name, u), each in list(columns.items())[1:]},

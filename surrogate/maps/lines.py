@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.errors import WirecutError
+from surrogate.basics.extras import require_extra
 from surrogate.maps.axes import MapAxis
 from surrogate.maps.scenes import Monomial
 
@@ -176,11 +175,7 @@ def contours(values: Array, level: float, x: MapAxis, y: MapAxis) -> Lines:
     """
     if not np.any(values > level) or not np.any(values < level):
         return ()
-    if find_spec("contourpy") is None:
-        raise WirecutError(
-            "boundaries of a model without closed form need contourpy; install it with: "
-            "pip install 'wirecut[plot]'."
-        )
+    require_extra("contourpy", "a boundary of a model without closed form", "plot")
     from contourpy import contour_generator
 
     made = contour_generator(

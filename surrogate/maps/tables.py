@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from surrogate.basics.extras import require_extra
 from surrogate.basics.files import write_csv
-from surrogate.errors import WirecutError
 from surrogate.maps.axes import COORDINATES, MapAxis
 from surrogate.version import __version__
 
@@ -85,12 +85,9 @@ def write_boundaries(made: MapRecord, file: str | PathLike[str]) -> None:
 
 def map_dataset(made: MapRecord) -> xarray.Dataset:
     """Return the fields over both axes, with units; xarray is needed."""
-    try:
-        import xarray
-    except ImportError:
-        raise WirecutError(
-            "a labelled data set needs xarray; install it with: pip install 'wirecut[tables]'."
-        ) from None
+    require_extra("xarray", "a labelled data set", "tables")
+    import xarray
+
     axes = {
         axis.name: (axis.name, axis.values, {"units": axis.unit, "description": words})
         for axis in (made.y, made.x)

@@ -86,7 +86,7 @@ def test_what_cannot_be_drawn_is_refused_before_drawing():
 
 
 def test_missing_matplotlib_is_told_with_the_remedy(monkeypatch, tmp_path):
-    monkeypatch.setattr("surrogate.basics.figures.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.basics.extras.find_spec", lambda name: None)
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         save_identification(identify(RADIUS, RISING, 685.0), tmp_path / "fit.png")
 

@@ -290,7 +290,7 @@ def test_extreme_but_sound_ranges():
 
 
 def test_contours_without_contourpy_name_the_remedy(monkeypatch):
-    monkeypatch.setattr("surrogate.maps.lines.find_spec", lambda name: None)
+    monkeypatch.setattr("surrogate.basics.extras.find_spec", lambda name: None)
     assert make("gel").boundaries
     with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         make("gel", model="eq9")
