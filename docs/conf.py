@@ -43,9 +43,9 @@ html_show_sphinx = False
 
 
 SECTIONS = {
-    "Forces": ("scene", "force", "gradient", "propagation", "contact"),
-    "Regimes and maps": ("regimes", "maps", "map_plots", "map_points", "radii"),
-    "From forces to the material": ("identification", "design", "data", "plots"),
+    "Regimes and maps": ("cutting.regimes", "cutting.transition_radius", "maps"),
+    "Forces": ("scene", "cutting"),
+    "From forces to the material": ("identification", "reading"),
     "The paper's equations": ("equations",),
 }
 
@@ -57,8 +57,8 @@ def reference() -> str:
         value = getattr(surrogate, name)
         if not callable(value):
             continue
-        module = value.__module__.rpartition(".")[2]
-        title = next((t for t, modules in SECTIONS.items() if module in modules), "Models")
+        module = value.__module__.removeprefix("surrogate.")
+        title = next((t for t, rooms in SECTIONS.items() if module.startswith(rooms)), "Models")
         if isinstance(value, type) and issubclass(value, Exception):
             title = "Errors"
         kind = "autoclass" if isinstance(value, type) else "autofunction"
