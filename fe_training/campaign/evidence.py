@@ -45,7 +45,7 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
         reached = [c for c in here if c in values[c.level]]
         chosen = (reached or here)[0]
         record = rows[index[chosen]].record
-        nothing = np.full(3, np.nan)
+        nothing = np.full(5, np.nan)
         best = values[chosen.level].get(chosen, nothing)
         other = values[coarse].get(twin, nothing) if chosen is one else nothing
         errors = np.abs(other - best)
@@ -55,9 +55,13 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
             "arc": best[0],
             "normal_load": best[1],
             "distance": best[2],
+            "slip_arc": best[3],
+            "slip_load": best[4],
             "arc_error": errors[0],
             "normal_load_error": errors[1] / best[1],
             "distance_error": errors[2] / best[2],
+            "slip_arc_error": errors[3] / best[3],
+            "slip_load_error": errors[4] / best[4],
             "truncation_error": record.truncation_error,
             "force_mismatch": record.force_mismatch,
             "support_spread": record.support_spread if reached else np.nan,
@@ -97,7 +101,7 @@ def _doubt(point: Mapping[str, Any], record: Record) -> str:
 def _at_targets(
     rows: Iterable[Row], level: str, design: CampaignDesign
 ) -> dict[Configuration, Floats]:
-    """Return A, B and delta of what one level reached, moved from each row's J to its target.
+    """Return A, B, delta, A* and B* of what one level reached, each at its row's target.
 
     The slopes with respect to log J come from the neighbouring rows of the same alpha.
     """
@@ -111,12 +115,14 @@ def _at_targets(
         ]
         here.sort(key=lambda row: row.record.energy_release_rate)
         log_j = np.log([row.record.energy_release_rate for row in here])
-        values = np.array(
-            [(row.record.arc, row.record.normal_load, row.record.distance) for row in here]
-        )
+        values = np.array([_functions(row.record) for row in here])
         slopes = np.zeros_like(values)
         if len(here) > 1 and np.all(np.diff(log_j) > 0.0):
             slopes = np.gradient(values, log_j, axis=0)
         for row, x, value, slope in zip(here, log_j, values, slopes, strict=True):
             found[row.configuration] = value + slope * (np.log(row.configuration.target) - x)
     return found
+
+
+def _functions(record: Record) -> tuple[float, ...]:
+    return (record.arc, record.normal_load, record.distance, record.slip_arc, record.slip_load)

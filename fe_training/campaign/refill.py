@@ -47,7 +47,11 @@ def _row(values: Mapping[str, Any], campaign: Campaign) -> Row:
         tried=int(values["tried"]),
         software=dict(campaign.software[int(values["software"])]),
         record=Record(
-            **{field.name: _restored(field.name, values[field.name]) for field in fields(Record)}
+            **{
+                field.name: _restored(field.name, values[field.name])
+                for field in fields(Record)
+                if field.name in values  # earlier data sets have no stretches
+            }
         ),
     )
 

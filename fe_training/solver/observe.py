@@ -6,13 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import trapezoid
 from skfem import ElementTriP1, ElementTriP2, FacetBasis
 
 from fe_training.mechanics import ogden
 from fe_training.mechanics.body import Body
 from fe_training.solver.equilibrium import State
 
-__all__ = ["contact_ends"]
+__all__ = [
+    "ContactArc",
+    "contact_arc",
+    "contact_ends",
+    "face_stretch",
+    "principal_stretch",
+    "stress_ahead",
+]
 
 Floats = NDArray[np.float64]
 
@@ -70,17 +78,46 @@ class ContactArc:
         Its ends, from the cutting direction about the wire's centre [rad].
     theta, pressure : ndarray
         Angles of the touching nodes [rad] and the contact pressure there [mu].
+    stretch : ndarray
+        lambda = |F e_1| there, the stretch of the face's line element: how far the solid slips
+        over the wire while the wire advances by one [-].
+    force : ndarray
+        Normal forces of these nodes [mu R_w].
     """
 
     theta_1: float
     theta_2: float
     theta: Array
     pressure: Array
+    stretch: Array
+    force: Array
 
     @property
     def length(self) -> float:
         """A = cos(theta_1) - cos(theta_2) [-]."""
         return float(np.cos(self.theta_1) - np.cos(self.theta_2))
+
+    @property
+    def slip_arc(self) -> float:
+        """A* = int lambda dtheta from one end of the contact to the other [-].
+
+        Straight between the nodes; beyond the last ones the stretch keeps their slope.
+        """
+        if len(self.theta) < 2:
+            return np.nan
+        ends = np.array([self.theta_1, self.theta_2])
+        theta, stretch = self.theta, self.stretch
+        slope = np.diff(stretch)[[0, -1]] / np.diff(theta)[[0, -1]]
+        at_ends = stretch[[0, -1]] + slope * (ends - theta[[0, -1]])
+        inside = (theta > ends[0]) & (theta < ends[1])
+        angles = np.concatenate([ends[:1], theta[inside], ends[1:]])
+        values = np.concatenate([at_ends[:1], stretch[inside], at_ends[1:]])
+        return float(trapezoid(values, angles))
+
+    @property
+    def slip_load(self) -> float:
+        """B* = int P lambda dtheta [-]: the nodes' forces, each times its stretch."""
+        return float(self.force @ self.stretch)
 
 
 def contact_arc(body: Body, state: State) -> ContactArc:
@@ -89,7 +126,25 @@ def contact_arc(body: Body, state: State) -> ContactArc:
     touching = np.flatnonzero(state.active.wire)
     theta = np.arctan2(position[:, 1], position[:, 0] - state.centre[0])[touching]
     pressure = (state.force / _tributary(position))[touching]
-    return ContactArc(*contact_ends(theta, pressure), theta, pressure)
+    stretch = face_stretch(body, state)[touching]
+    theta_1, theta_2 = contact_ends(theta, pressure)
+    if state.active.wire[0]:  # the tip itself, where by symmetry no pressure ends
+        theta_1 = 0.0
+    return ContactArc(theta_1, theta_2, theta, pressure, stretch, state.force[touching])
+
+
+def face_stretch(body: Body, state: State) -> Array:
+    """Return lambda = |F e_1| at the nodes of the crack face [-].
+
+    From differences of second order of the polar coordinates about the wire's centre, in which
+    the face under the contact is straight.
+    """
+    reference = body.nodes[body.face]
+    arm = reference + state.u[body.face] - state.centre
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(reference, axis=0).T))])
+    radius, angle = np.hypot(*arm.T), np.unwrap(np.arctan2(arm[:, 1], arm[:, 0]))
+    rates = np.gradient(radius, length), radius * np.gradient(angle, length)
+    return np.asarray(np.hypot(*rates))
 
 
 def _tributary(position: Array) -> Array:

@@ -81,6 +81,10 @@ class Record:
         F_h and F_v of the half model [mu R_w per unit thickness]; B = F_v.
     theta_1, theta_2 : float
         Ends of the contact arc [rad].
+    slip_arc, slip_load : float
+        A* = int lambda dtheta and B* = int P lambda dtheta of the half model [-]: with wear
+        tau_w and friction xi the force grows by 2 [(tau_w/mu) A* + xi B*] to first order; where
+        the tip touches the wire, for the notch radius of the mesh.
     strain_energy : float
         U of the half body [mu R_w^2 per unit thickness].
     tip_position : float
@@ -113,6 +117,8 @@ class Record:
         Seconds since the start of the path or the last record of it.
     pressure_angle, pressure : ndarray
         Profile of the contact pressure over the arc [rad], [mu].
+    stretch : ndarray
+        Stretch lambda = |F e_1| of the crack face at the same angles [-].
     ahead_reference, ahead_deformed, ahead_stress : ndarray
         Distance from the tip before and after deformation [R_w] and sigma_22 [mu].
     """
@@ -128,6 +134,8 @@ class Record:
     vertical_force: float = np.nan
     theta_1: float = np.nan
     theta_2: float = np.nan
+    slip_arc: float = np.nan
+    slip_load: float = np.nan
     strain_energy: float = np.nan
     tip_position: float = np.nan
     energy_release_rate_across: tuple[float, ...] = ()
@@ -146,6 +154,7 @@ class Record:
     wall_time: float = np.nan
     pressure_angle: Array = field(default_factory=lambda: np.empty(0))
     pressure: Array = field(default_factory=lambda: np.empty(0))
+    stretch: Array = field(default_factory=lambda: np.empty(0))
     ahead_reference: Array = field(default_factory=lambda: np.empty(0))
     ahead_deformed: Array = field(default_factory=lambda: np.empty(0))
     ahead_stress: Array = field(default_factory=lambda: np.empty(0))

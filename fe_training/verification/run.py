@@ -29,7 +29,14 @@ __all__ = ["estimated_seconds", "fingerprint", "read_solved", "solve_cases", "ta
 _ENGINE = ("mechanics", "solver")
 
 #: Fields of a record that the studies do not need.
-_PROFILES = {"pressure_angle", "pressure", "ahead_reference", "ahead_deformed", "ahead_stress"}
+_PROFILES = {
+    "pressure_angle",
+    "pressure",
+    "stretch",
+    "ahead_reference",
+    "ahead_deformed",
+    "ahead_stress",
+}
 
 #: Below this g the engine raises the wire afresh for each value: those may be solved apart.
 _AFRESH = 0.3
