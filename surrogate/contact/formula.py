@@ -80,7 +80,7 @@ def arc_formula(a: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
     sine = 2.0 * _sin(angle) / k
     swell = angle * _tan_inverse(angle)  # d ln sine/d ln angle
     in_at = swell * wedge_slopes(at)["arc"]
-    in_k = (swell - 1.0) * 0.5 * a[0] * alpha**3 / (k * k)
+    in_k = (swell - 1.0) * 0.5 * a[0] * (alpha * alpha * alpha) / (k * k)
     depth, x = a[3] * (1.0 - y), log_g - (a[4] + a[5] * y)
     bell = exp(-0.5 * x * x)
     dip = 1.0 - depth * bell
