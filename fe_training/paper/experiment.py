@@ -25,7 +25,7 @@ from surrogate.basics.files import model_file
 from surrogate.choosing.by_name import force_model
 from surrogate.cutting.force import cutting_force
 from surrogate.identification.figure import plot_profile
-from surrogate.identification.profile import Mode
+from surrogate.inference.profile import Mode
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

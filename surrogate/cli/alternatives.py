@@ -12,7 +12,7 @@ from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.identification.fit import Identification, identify
-from surrogate.identification.inputs import NOTHING_KNOWN
+from surrogate.inference.inputs import NOTHING_KNOWN
 from surrogate.reading.material import Material
 
 __all__ = ["alternatives_record", "alternatives_text"]

@@ -15,7 +15,7 @@ from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.doubts import wire_in_words
 from surrogate.identification.fit import Identification
-from surrogate.identification.line_fit import is_linear
+from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
 
 __all__ = ["identification_record", "identification_text", "profile_record", "profile_text"]

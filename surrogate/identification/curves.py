@@ -14,8 +14,8 @@ from surrogate.basics.files import write_csv
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
 from surrogate.identification.fit import Identification
-from surrogate.identification.inputs import PREDICTED_RADIUS
-from surrogate.identification.line_fit import is_linear
+from surrogate.inference.inputs import PREDICTED_RADIUS
+from surrogate.inference.line_fit import is_linear
 from surrogate.version import __version__
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.further_wire import FurtherWire
-from surrogate.identification.profile import Mode, Profile
-from surrogate.identification.quantiles import normal_quantile, student_quantile
+from surrogate.inference.profile import Mode, Profile
+from surrogate.inference.quantiles import normal_quantile, student_quantile
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import doubts
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import LARGEST, Quantity
 from surrogate.choosing.by_name import force_model
@@ -16,19 +17,25 @@ from surrogate.cutting.transition_radius import (
 )
 from surrogate.errors import DomainError
 from surrogate.identification.further_wire import FurtherWire, forces_of
-from surrogate.identification.inputs import (
+from surrogate.inference.inputs import (
     NOTHING_KNOWN,
     PREDICTED_RADIUS,
     Array,
     Cuts,
     Known,
 )
-from surrogate.identification.line_fit import linear_form
-from surrogate.identification.profile import Interval, Profile
-from surrogate.identification.quantiles import normal_quantile, student_quantile
+from surrogate.inference.line_fit import linear_form
+from surrogate.inference.profile import Interval, Profile
+from surrogate.inference.quantiles import normal_quantile, student_quantile
+from surrogate.inference.scatter import Scatter
 from surrogate.scene import Scene
 
-__all__ = ["Estimate"]
+__all__ = ["OPEN_ENDS", "Estimate"]
+
+OPEN_ENDS = ("model", "search")
+"""What ends a search but says nothing about the material."""
+
+_BY_FORCES, _UNKNOWN_ENDS = ("forces", "forces"), ("unknown", "unknown")
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +63,14 @@ class Estimate:
     profile: Profile | None = None
     further_wire: FurtherWire | None = None
     model_error: tuple[float, float] | None = None
+    contributions: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    without_each: Array | None = None
+    shear_modulus_std: float = 0.0
+    friction_std: float = 0.0
+    stiffening_std: float = 0.0
+    sample: NDArray[np.int64] | None = None
+    scatter: Scatter | None = None
+    assumed: tuple[str, ...] = ()
 
     @property
     def cuts(self) -> Cuts:
@@ -67,6 +82,12 @@ class Estimate:
             self.shear_modulus,
             self.friction_coefficient,
             self.stiffening_exponent,
+            self.shear_modulus_std,
+            self.friction_std,
+            self.stiffening_std,
+            self.sample,
+            0.0 if self.scatter is None else self.scatter.sample_ratio,
+            None if self.scatter is None else self.scatter.weights,
         )
 
     @property
@@ -76,7 +97,7 @@ class Estimate:
 
     @property
     def toughness_std(self) -> float:
-        """Standard error of the toughness [J/m2]."""
+        """Standard error of the toughness [J/m2]; nan where a limit holds the estimate."""
         return float(np.sqrt(self.covariance[0, 0]))
 
     @property
@@ -86,17 +107,82 @@ class Estimate:
 
     @property
     def toughness_interval(self) -> tuple[float, float]:
-        """Confidence interval of the toughness [J/m2]; around all pieces that `profile` has."""
+        """Confidence interval of the toughness [J/m2]; around all pieces that `profile` has.
+
+        0 below or infinite above where `toughness_limited_by` says that no force ends it there.
+        """
         if self.profile is not None:
-            return _hull(self.profile.toughness_intervals)
-        return self._interval(self.toughness, self.toughness_std)
+            low, high = _hull(self.profile.toughness_intervals)
+            below, above = self.toughness_limited_by
+            return (
+                0.0 if below in OPEN_ENDS else low,
+                np.inf if above in OPEN_ENDS else high,
+            )
+        return self._interval(0)
 
     @property
     def wear_strength_interval(self) -> tuple[float, float]:
         """Confidence interval of the wear strength [Pa]; around all pieces that `profile` has."""
         if self.profile is not None:
-            return _hull(self.profile.wear_strength_intervals)
-        return self._interval(self.wear_strength, self.wear_strength_std)
+            low, high = _hull(self.profile.wear_strength_intervals)
+            below, above = self.wear_strength_limited_by
+            return (
+                0.0 if below in OPEN_ENDS else low,
+                np.inf if above in OPEN_ENDS else high,
+            )
+        return self._interval(1)
+
+    @property
+    def toughness_limited_by(self) -> tuple[str, str]:
+        """What ends the toughness's interval below and above.
+
+        "forces", or what stands in for them: "zero", "model" (the end of its range), "bound" or
+        "search"; "unknown" where the scatter is.
+        """
+        profile = self.profile
+        if profile is None:
+            return _UNKNOWN_ENDS if np.isnan(self.toughness_std) else _BY_FORCES
+        if not profile.toughness_intervals:
+            return _UNKNOWN_ENDS
+        return profile.limits_of(*_hull(profile.toughness_intervals))
+
+    @property
+    def wear_strength_limited_by(self) -> tuple[str, str]:
+        """What ends the wear strength's interval below and above; see `toughness_limited_by`.
+
+        "given" where tau_w was; what ends the toughness's interval where the end of tau_w lies
+        there; "none" above where any tau_w fits.
+        """
+        profile = self.profile
+        if self.known.wear_strength is not None:
+            return "given", "given"
+        if profile is None or not profile.wear_strength_intervals:
+            return _UNKNOWN_ENDS if np.isnan(self.wear_strength_std) else _BY_FORCES
+        low, high = _hull(profile.wear_strength_intervals)
+        below = "zero" if low == 0.0 else self._end_in_toughness(low, 1)
+        return below, "none" if np.isinf(high) else self._end_in_toughness(high, 2)
+
+    def _end_in_toughness(self, end: float, row: int) -> str:
+        """Return what limits the toughness where the wear strength has its end."""
+        assert self.profile is not None
+        gamma, limits = self.profile.admitted[0], self.toughness_limited_by
+        values = self.profile.admitted[row]
+        place = int(np.argmin(values) if row == 1 else np.argmax(values))
+        if place == 0 and gamma[0] > 0.0:
+            return limits[0]
+        return limits[1] if place == gamma.size - 1 else "forces"
+
+    @property
+    def at_limit(self) -> bool:
+        """Whether an end of the model, a bound, the search or 0 holds the estimate."""
+        if self.profile is None:
+            return False
+        free_wear = self.known.wear_strength is None
+        return (
+            self.profile.modes[0].at_end
+            or self.toughness == 0.0
+            or (free_wear and self.wear_strength == 0.0)
+        )
 
     @property
     def dimensionless_toughness(self) -> Array:
@@ -261,9 +347,19 @@ class Estimate:
             return normal_quantile(self.confidence)
         return student_quantile(self.confidence, self.dof) if self.dof > 0 else np.nan
 
-    def _interval(self, estimate: float, std: float) -> tuple[float, float]:
-        half_width = self._quantile * std
+    def _interval(self, which: int) -> tuple[float, float]:
+        """Return the interval of a line: Student's for the scatter, normal for what is stated."""
+        estimate = (self.toughness, self.wear_strength)[which]
+        half_width = self._half_width(
+            {name: part[which] for name, part in self.contributions.items()}
+        )
         return estimate - half_width, estimate + half_width
+
+    def _half_width(self, parts: Mapping[str, float]) -> float:
+        squares = {name: std**2 for name, std in parts.items()}
+        scatter = squares.pop("scatter", np.nan)
+        stated = normal_quantile(self.confidence) ** 2 * sum(squares.values())
+        return float(np.sqrt(self._quantile**2 * scatter + stated))
 
     def _linear_form(self, wire_radius: ArrayLike) -> tuple[Array, Array]:
         radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))

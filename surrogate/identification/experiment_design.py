@@ -13,8 +13,8 @@ from surrogate.basics.checks import Quantity, one_number, shown
 from surrogate.basics.records import Shown
 from surrogate.cutting.force import cutting_force
 from surrogate.errors import InputError
-from surrogate.identification.inputs import FORCE_STD, WIRE_RADIUS, column
-from surrogate.identification.line_fit import linear_form, solve_least_squares
+from surrogate.inference.inputs import FORCE_STD, WIRE_RADIUS, column
+from surrogate.inference.line_fit import linear_form, solve_least_squares
 from surrogate.scene import Scene, require_scene
 
 __all__ = ["Design", "Noise", "design_radii"]

@@ -32,7 +32,7 @@ from surrogate.errors import InputError
 from surrogate.identification.curves import curve_radii, require_identification
 from surrogate.identification.fit import Identification
 from surrogate.identification.further_wire import forces_of
-from surrogate.identification.profile import Mode, Profile
+from surrogate.inference.profile import Mode, Profile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,9 +14,17 @@ from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
 from surrogate.identification.doubts import fit_warnings, undecided
 from surrogate.identification.estimate import Estimate
-from surrogate.identification.inputs import NOTHING_KNOWN, Array, known, series_of_cuts
-from surrogate.identification.line_fit import fit_line, is_linear
 from surrogate.identification.profile_fit import fit_profile
+from surrogate.inference.inputs import (
+    NOTHING_KNOWN,
+    Array,
+    known,
+    material_of,
+    series_of_cuts,
+    stated_errors,
+)
+from surrogate.inference.line_fit import fit_line, is_linear
+from surrogate.inference.scatter import scatter_of_repeats
 
 __all__ = ["Identification", "identify"]
 
@@ -110,12 +118,17 @@ class Identification(Estimate):
 def identify(
     wire_radius: ArrayLike | None,
     force: ArrayLike,
-    shear_modulus: float,
+    shear_modulus: float | None = None,
     *,
-    friction_coefficient: float = 0.0,
-    stiffening_exponent: float = 2.0,
+    friction_coefficient: float | None = None,
+    stiffening_exponent: float | None = None,
     force_std: ArrayLike | None = None,
+    relative_error: float | None = None,
     wire_diameter: ArrayLike | None = None,
+    sample: ArrayLike | None = None,
+    shear_modulus_std: float = 0.0,
+    friction_std: float = 0.0,
+    stiffening_std: float = 0.0,
     model: str = AUTO,
     rtol: float = 0.02,
     confidence: float = 0.95,
@@ -251,16 +264,30 @@ def identify(
     """
     chosen = one_model(model, rtol).name
     given = known(
-        toughness_max, wear_strength, toughness_prior, wear_strength_prior, force_std is not None
+        toughness_max,
+        wear_strength,
+        toughness_prior,
+        wear_strength_prior,
+        force_std is not None or relative_error is not None,
+    )
+    modulus, material, assumed = material_of(
+        chosen, shear_modulus, friction_coefficient, stiffening_exponent
     )
     cuts = series_of_cuts(
         wire_radius,
         wire_diameter,
         force,
-        force_std,
-        (shear_modulus, friction_coefficient, stiffening_exponent),
+        stated_errors(force, force_std, relative_error),
+        (modulus, *material),
         fewest_radii=1 if given.facts else 2,
+        stds=(shear_modulus_std, friction_std, stiffening_std),
+        sample=sample,
     )
+    scatter = None
+    if cuts.force_std is None:
+        scatter = scatter_of_repeats(cuts.wire_radius, cuts.force, cuts.sample)
+    if scatter is not None:
+        cuts = replace(cuts, weights=scatter.weights, sample_ratio=scatter.sample_ratio)
     probability = one_number(CONFIDENCE, confidence)
     fit: dict[str, Any]
     if is_linear(chosen) and given == NOTHING_KNOWN:
@@ -269,28 +296,35 @@ def identify(
         fit = fit_profile(cuts, chosen, given, probability, further_radii)
     weight, residuals = cuts.weight, fit["residuals"]
     dof = cuts.force.size + given.facts - 2
-    misfit, covariance = fit.pop("misfit"), fit.pop("unit_covariance")
-    variance = misfit / dof if dof else np.nan
+    misfit = fit.pop("misfit")
     mean = np.average(cuts.force, weights=weight**2)
     total_sum = _square_sum((cuts.force - mean) * weight)
-    return Identification(
+    identification = Identification(
         **fit,
-        covariance=covariance * (variance if cuts.force_std is None else 1.0),
-        correlation=_correlation(covariance),
+        correlation=_correlation(fit["covariance"]),
         r_squared=(
             1.0 - _square_sum(residuals * weight) / total_sum if total_sum > 0.0 else np.nan
         ),
-        reduced_chi_squared=None if cuts.force_std is None else variance,
+        reduced_chi_squared=(None if cuts.force_std is None else misfit / dof if dof else np.nan),
         wire_radius=cuts.wire_radius,
         force=cuts.force,
         force_std=cuts.force_std,
         shear_modulus=cuts.shear_modulus,
         friction_coefficient=cuts.friction_coefficient,
         stiffening_exponent=cuts.stiffening_exponent,
+        shear_modulus_std=cuts.shear_modulus_std,
+        friction_std=cuts.friction_std,
+        stiffening_std=cuts.stiffening_std,
+        sample=cuts.sample,
+        scatter=scatter,
+        assumed=assumed,
         model=chosen,
         confidence=probability,
         known=given,
     )
+    if identification.at_limit:
+        return replace(identification, covariance=fit["covariance"] * np.nan)
+    return identification
 
 
 def _html(fit: Identification) -> str:

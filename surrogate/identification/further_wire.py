@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.contact.base import ForceModel
-from surrogate.identification.inputs import Cuts
-from surrogate.identification.misfit import Misfit
-from surrogate.identification.profile import Profile
+from surrogate.inference.inputs import Cuts
+from surrogate.inference.misfit import Misfit
+from surrogate.inference.profile import Profile
 
 __all__ = ["FurtherWire", "forces_of", "further_wire", "range_of_wires"]
 

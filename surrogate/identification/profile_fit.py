@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from surrogate.basics.checks import one_number, shown
-from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
 from surrogate.identification.further_wire import further_wire, range_of_wires
-from surrogate.identification.inputs import WIRE_RADIUS, Array, Cuts, Known
-from surrogate.identification.line_fit import solve_least_squares
-from surrogate.identification.misfit import Misfit
-from surrogate.identification.profile import profile_misfit
-from surrogate.identification.quantiles import normal_quantile, student_quantile
+from surrogate.inference.inputs import WIRE_RADIUS, Array, Cuts, Known
+from surrogate.inference.line_fit import solve_least_squares, solve_with_shared
+from surrogate.inference.misfit import Misfit
+from surrogate.inference.profile import profile_misfit, smallest_misfit
+from surrogate.inference.quantiles import normal_quantile, student_quantile
 
-__all__ = ["fit_profile"]
+__all__ = ["fit_profile", "linearised"]
+
+LEAST_SCATTER = 1e-9
+"""Of the largest force; forces that are met better are as good as exact."""
 
 
 def fit_profile(
@@ -51,32 +55,48 @@ def fit_profile(
     chosen = force_model(model)
     chosen.stiffening.checked(cuts.stiffening_exponent)
     searched = _searched(cuts, further_radii)
-    misfit = Misfit(chosen, cuts, known)
     dof = cuts.force.size + known.facts - 2
-
-    def threshold(smallest: float) -> float:
-        if cuts.force_std is not None:
-            return smallest + normal_quantile(confidence) ** 2
-        if not dof:
-            return np.nan
-        return smallest * (1.0 + student_quantile(confidence, dof) ** 2 / dof)
-
-    profile = profile_misfit(misfit, threshold)
+    misfit = _scaled(Misfit(chosen, cuts, known), dof)
+    profile = profile_misfit(misfit, partial(_threshold, misfit, confidence, dof))
     best = profile.modes[0]
-    at_best = np.array([best.toughness])
-    residuals = misfit.at(at_best).residuals[0]
-    linearised = _linearised(misfit, best.toughness, best.wear_strength)
-    scatter = np.full_like(residuals, np.sqrt(best.misfit / max(dof, 1)))
-    std = scatter if cuts.force_std is None else cuts.force_std
+    residuals = misfit.at(np.array([best.toughness])).residuals[0]
+    scale = np.sqrt(best.misfit / max(dof, 1)) if misfit.scale is None else misfit.scale
+    std = scale / cuts.weight
     return {
         "toughness": best.toughness,
         "wear_strength": best.wear_strength,
         "residuals": residuals,
         "misfit": best.misfit,
-        **linearised,
+        **linearised(misfit, best.toughness, best.wear_strength, scale if dof else np.nan),
         "profile": profile,
         "further_wire": further_wire(misfit, profile, std, searched),
+        "without_each": misfit.without_each(profile.toughness),
     }
+
+
+def _scaled(misfit: Misfit, dof: int) -> Misfit:
+    """Return the misfit with the errors that forces share, beside their own scatter.
+
+    Where no standard error is known, the scatter is that about the best fit without such errors.
+    """
+    if misfit.cuts.force_std is not None:
+        return replace(misfit, scale=1.0)
+    if not dof or not replace(misfit, scale=1.0).shares_errors:
+        return misfit
+    scatter = float(np.sqrt(smallest_misfit(misfit) / dof))
+    return replace(misfit, scale=max(scatter, LEAST_SCATTER * float(misfit.cuts.force.max())))
+
+
+def _threshold(misfit: Misfit, confidence: float, dof: int, smallest: float) -> float:
+    """Return the largest misfit that is admitted beside the smallest one."""
+    if misfit.cuts.force_std is not None:
+        return smallest + normal_quantile(confidence) ** 2
+    if not dof:
+        return np.nan
+    quantile = student_quantile(confidence, dof) ** 2
+    if misfit.scale is None:
+        return smallest * (1.0 + quantile / dof)
+    return smallest + quantile * misfit.scale**2
 
 
 def _searched(cuts: Cuts, further_radii: object) -> tuple[float, float]:
@@ -96,51 +116,54 @@ def _searched(cuts: Cuts, further_radii: object) -> tuple[float, float]:
     return smallest, largest
 
 
-def _linearised(misfit: Misfit, toughness: float, wear_strength: float) -> dict[str, Any]:
+def linearised(
+    misfit: Misfit, toughness: float, wear_strength: float, scale: float
+) -> dict[str, Any]:
     """Return what follows from the force's derivatives at the estimate.
 
     As if no limit held the estimate; all nan where a derivative is infinite, as at Gamma_o = 0.
+    The standard error that each source of error brings is that of the same estimator, so that
+    their squares add up to the diagonal of the covariance.
     """
-    at, known, weight = np.array([toughness]), misfit.known, misfit.cuts.weight
-    slopes = misfit.force_slopes(at, np.array([wear_strength]))[0]
+    at, tau, known = np.array([toughness]), np.array([wear_strength]), misfit.known
+    weight = misfit.cuts.weight
+    slopes = misfit.force_slopes(at, tau)[0]
     design = (np.stack([slopes, misfit.arcs(at)[0]]) * weight).T
     for column, prior in enumerate((known.toughness_prior, known.wear_strength_prior)):
         if prior is not None:
             design = np.vstack([design, np.eye(2)[column] / prior[1]])
     free = slice(0, 1 if known.wear_strength is not None else 2)
-    covariance = np.zeros((2, 2))
     if not np.all(np.isfinite(design)) or not np.all(np.any(design[:, free], axis=0)):
-        return _named(covariance + np.nan, weight * np.nan, np.nan, (np.nan, np.nan))
-    fit = solve_least_squares(design[:, free], design[:, 0])
-    covariance[free, free] = fit.covariance
-    bounds = _force_bounds(misfit, toughness, wear_strength)
-    shifts = None
-    if bounds is not None:  # each force off by its bound, all to the worse side
-        per_force = np.abs(covariance @ design[: weight.size].T)
-        gamma, tau = (per_force @ (weight * bounds)).tolist()
-        shifts = gamma, tau
-    return _named(covariance, fit.leverage[: weight.size], fit.condition, shifts)
+        nothing = np.full((2, 2), np.nan)
+        return _named(nothing, weight * np.nan, np.nan, {})
+    plain = solve_least_squares(design[:, free], design[:, 0])
+    factors: dict[str, Array] = {}
+    if misfit.scale is not None:
+        for name, factor in misfit.shared(at, tau):
+            rows = np.zeros((len(design), factor.shape[2]))
+            rows[: weight.size] = weight[:, np.newaxis] * factor[0] / misfit.scale
+            factors[name] = np.hstack([factors[name], rows]) if name in factors else rows
+    fit, parts = solve_with_shared(design[:, free], design[:, 0], factors)
+    contributions = {}
+    for name, part in parts.items():
+        std = np.zeros(2)
+        std[free] = scale * part
+        contributions[name] = (float(std[0]), float(std[1]))
+    covariance = np.zeros((2, 2))
+    covariance[free, free] = scale**2 * fit.covariance
+    return _named(covariance, plain.leverage[: weight.size], plain.condition, contributions)
 
 
 def _named(
-    covariance: Array, leverage: Array, condition: float, shifts: tuple[float, float] | None
+    covariance: Array,
+    leverage: Array,
+    condition: float,
+    contributions: dict[str, tuple[float, float]],
 ) -> dict[str, Any]:
     return {
-        "unit_covariance": covariance,
+        "covariance": covariance,
         "leverage": leverage,
         "condition": condition,
-        "model_error": shifts,
+        "contributions": contributions,
+        "model_error": contributions.get("model"),
     }
-
-
-def _force_bounds(misfit: Misfit, toughness: float, wear_strength: float) -> Array | None:
-    """Return how far off the model's force on each wire may be [N/m], or None if nobody knows."""
-    cuts, model = misfit.cuts, misfit.model
-    g = toughness / (cuts.shear_modulus * cuts.wire_radius)
-    bounds = contact_bounds(model, g, cuts.stiffening_exponent)
-    if bounds is None:
-        return None
-    arc, load = model.contact(("arc", "normal_load"), g, cuts.stiffening_exponent)
-    stiffness = cuts.friction_coefficient * cuts.shear_modulus
-    stress = wear_strength * arc * bounds[0] + stiffness * load * bounds[1]
-    return np.asarray(2.0 * cuts.wire_radius * stress)

@@ -11,7 +11,7 @@ import surrogate
 from surrogate import Scene
 from surrogate.basics.files import model_file
 from surrogate.errors import InputError
-from surrogate.identification.line_fit import solve_least_squares
+from surrogate.inference.line_fit import solve_least_squares
 from surrogate.reading.measurements import read_measurements
 
 identify = partial(surrogate.identify, model="eq13")

@@ -14,8 +14,8 @@ from surrogate.basics.checks import Quantity
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
-from surrogate.identification.inputs import Known
-from surrogate.identification.misfit import Misfit
+from surrogate.inference.inputs import Known
+from surrogate.inference.misfit import Misfit
 
 identify = partial(surrogate.identify, model="eq13")
 

@@ -3,7 +3,7 @@
 import mpmath
 import pytest
 
-from surrogate.identification.quantiles import normal_quantile, student_quantile
+from surrogate.inference.quantiles import normal_quantile, student_quantile
 
 CONFIDENCES = [0.01, 0.5, 0.6827, 0.9, 0.95, 0.99, 0.9999, 0.999999]
 DOFS = [1, 2, 3, 4, 5, 6, 7, 29, 30, 999, 1000, 1001, 10**6]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,9 +12,16 @@ from numpy.typing import NDArray
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import InputError
-from surrogate.identification.inputs import Cuts
+from surrogate.inference.inputs import Cuts
 
-__all__ = ["LinearFit", "fit_line", "is_linear", "linear_form", "solve_least_squares"]
+__all__ = [
+    "LinearFit",
+    "fit_line",
+    "is_linear",
+    "linear_form",
+    "solve_least_squares",
+    "solve_with_shared",
+]
 
 Array = NDArray[np.float64]
 
@@ -79,6 +87,43 @@ def solve_least_squares(design: Array, values: Array) -> LinearFit:
     return LinearFit(inverse @ (q.T @ values), inverse @ inverse.T, np.sum(q**2, axis=1), condition)
 
 
+def solve_with_shared(
+    design: Array, values: Array, factors: Mapping[str, Array]
+) -> tuple[LinearFit, dict[str, Array]]:
+    """Minimise r' (1 + sum of K K')^-1 r for r = design x - values, and tell the sources apart.
+
+    Parameters
+    ----------
+    design, values : ndarray
+        As `solve_least_squares`.
+    factors : mapping of str to ndarray, shape (n, k)
+        K of each source: what its k independent errors of unit variance do to the values.
+
+    Returns
+    -------
+    LinearFit
+        The solution.
+    dict of str to ndarray, shape (p,)
+        Standard errors that each source brings, "scatter" among them; their squares add up to the
+        diagonal of the covariance.
+
+    Examples
+    --------
+    >>> fit, parts = solve_with_shared(np.ones((4, 1)), np.ones(4), {"all": np.ones((4, 1))})
+    >>> print(np.round([parts["scatter"][0], parts["all"][0]], 6))
+    [0.5 1. ]
+    """
+    inverse = np.eye(len(values))
+    if factors:
+        both = np.hstack(list(factors.values()))
+        inverse = np.linalg.inv(inverse + both @ both.T)
+    white = np.linalg.cholesky(inverse).T
+    fit = solve_least_squares(white @ design, white @ values)
+    estimator = fit.covariance @ design.T @ inverse
+    parts = {"scatter": estimator, **{name: estimator @ each for name, each in factors.items()}}
+    return fit, {name: np.sqrt((part**2).sum(axis=1)) for name, part in parts.items()}
+
+
 def is_linear(model: str) -> bool:
     """Return whether the force of a model is linear in toughness and wear strength.
 
@@ -138,21 +183,75 @@ def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
         model, cuts.wire_radius, cuts.shear_modulus, cuts.friction_coefficient
     )
     weight, target = cuts.weight, cuts.force - offset
-    fit = solve_least_squares(columns * weight[:, np.newaxis], target * weight)
-    if not np.isfinite(fit.condition):
+    design, values = columns * weight[:, np.newaxis], target * weight
+    plain = fit = solve_least_squares(design, values)
+    if not np.isfinite(plain.condition):
         smallest, largest = cuts.wire_radius.min(), cuts.wire_radius.max()
         raise InputError(
             f"the radii differ by rounding only ({smallest:.17g} to {largest:.17g} m): "
             "toughness and wear cannot be told apart; cut with at least two different wires."
         )
+    dof = cuts.force.size - 2
+    misfit = _misfit(design, values, _of_samples(cuts))
+    scale = _scale(cuts, misfit, dof)
+    contributions = {"scatter": scale * np.sqrt(np.diag(plain.covariance))}
+    factors = _factors(cuts, model, plain.estimate, scale)
+    if factors:
+        fit, parts = solve_with_shared(design, values, factors)
+        contributions = {name: scale * part for name, part in parts.items()}
     residuals = target - columns @ fit.estimate
     return {
         "toughness": float(fit.estimate[0]),
         "wear_strength": float(fit.estimate[1]),
         "residuals": residuals,
-        "misfit": float(np.sum((residuals * weight) ** 2)),
-        "unit_covariance": fit.covariance,
-        "condition": fit.condition,
-        "leverage": fit.leverage,
+        "misfit": misfit,
+        "covariance": scale**2 * fit.covariance,
+        "condition": plain.condition,
+        "leverage": plain.leverage,
+        "contributions": {name: (float(a), float(b)) for name, (a, b) in contributions.items()},
         "model_error": None,
     }
+
+
+def _scale(cuts: Cuts, misfit: float, dof: int) -> float:
+    """Return the standard error of a force of weight 1 [N/m]; nan where nothing tells it."""
+    if cuts.force_std is not None:
+        return 1.0
+    return float(np.sqrt(misfit / dof)) if dof else np.nan
+
+
+def _factors(cuts: Cuts, model: str, estimate: Array, scale: float) -> dict[str, Array]:
+    """Return what the errors that forces share do to the weighted forces, in units of the scale."""
+    chosen = force_model(model)
+    if not isinstance(chosen, ClosedForm) or not scale > 0.0:
+        return {}
+    stiffness = chosen.load_2 * cuts.wire_radius
+    friction = chosen.load_2_slope * estimate[0] + stiffness * cuts.shear_modulus
+    columns = {
+        "shear_modulus": cuts.friction_coefficient * stiffness * cuts.shear_modulus_std,
+        "friction_coefficient": friction * cuts.friction_std,
+    }
+    factors = {
+        name: (cuts.weight * column / scale)[:, np.newaxis]
+        for name, column in columns.items()
+        if np.any(column)
+    }
+    return factors | _of_samples(cuts)
+
+
+def _of_samples(cuts: Cuts) -> dict[str, Array]:
+    if cuts.sample is None or not cuts.sample_ratio > 0.0:
+        return {}
+    same = cuts.sample[:, np.newaxis] == np.unique(cuts.sample)
+    return {"sample": np.where(same, cuts.sample_ratio, 0.0)}
+
+
+def _misfit(design: Array, values: Array, factors: dict[str, Array]) -> float:
+    """Return the least r' (1 + sum of K K')^-1 r."""
+    fit, _ = solve_with_shared(design, values, factors)
+    residuals = values - design @ fit.estimate
+    inverse = np.eye(len(values))
+    if factors:
+        both = np.hstack(list(factors.values()))
+        inverse = np.linalg.inv(inverse + both @ both.T)
+    return float(residuals @ inverse @ residuals)

@@ -10,19 +10,31 @@ from numpy.typing import NDArray
 
 from surrogate.basics.roots import narrowed
 from surrogate.errors import DomainError, InputError
-from surrogate.identification.misfit import Misfit
+from surrogate.inference.misfit import Misfit
 
-__all__ = ["Mode", "Profile", "profile_misfit"]
+__all__ = ["Mode", "Profile", "profile_misfit", "smallest_misfit"]
 
 Array = NDArray[np.float64]
 Interval = tuple[float, float]
 
 POINTS_A_DECADE = 48
+WIDE_POINTS = 6
+"""A decade where every force is as good as without toughness and every arc far from the touch."""
+
+NEGLIGIBLE, SHORT_OF_TOUCH = 1e-4, 1e-3
+"""Toughness over the largest force, and g of the thinnest wire, that begin the closer points."""
+
 DECADES = 15.0
 """Below the largest force; a smaller toughness is lost in the rounding of the forces."""
 
+BEYOND = 2.0
+"""Times the largest force to which the toughness is searched where the forces share errors."""
+
 ROUNDING = 1e3 * np.finfo(float).eps
 """Height, over the forces' own sum of squares, from which a barrier between minima counts."""
+
+ZOOMS = 6
+"""Each finer by about a factor of eight, to the square root of rounding."""
 
 INSIDE = 64
 """Toughnesses at which each admitted interval is looked at, besides those of the scan."""
@@ -83,6 +95,13 @@ class Profile:
     searched: Interval
     ends: tuple[str, str]
 
+    def limits_of(self, low: float, high: float) -> tuple[str, str]:
+        """Return what ends an interval of the toughness: "forces", or what ends the search."""
+        first, last = self.searched
+        below = self.ends[0] if low <= first else "forces"
+        above = "search" if self.ends[1] == "forces" else self.ends[1]
+        return below, above if high >= last else "forces"
+
 
 def profile_misfit(misfit: Misfit, threshold: Callable[[float], float]) -> Profile:
     """Search all toughnesses that the forces, the model and the bound allow.
@@ -115,12 +134,14 @@ def profile_misfit(misfit: Misfit, threshold: Callable[[float], float]) -> Profi
     lowest, highest, ends = _limits(misfit)
     largest_force = float(misfit.cuts.force.max())
     first = max(largest_force, lowest)
-    scan = _nodes(lowest, min(first, highest), largest_force)
+    scan = _nodes(misfit, lowest, min(first, highest))
     reach = np.sqrt(threshold(float(misfit.at(scan).misfit.min())) / np.sum(misfit.cuts.weight**2))
     top = first + (float(reach) if np.isfinite(reach) else first)
+    if misfit.shares_errors:  # which let the forces be smaller together than the toughness
+        top = max(top, BEYOND * first)
     if top < highest:
         highest, ends = top, (ends[0], "forces")
-    scan = _nodes(lowest, highest, largest_force)
+    scan = _nodes(misfit, lowest, highest)
     values = misfit.at(scan)
     if misfit.known.wear_strength is None and not np.any(values.curvature > 0.0):
         raise InputError(
@@ -157,12 +178,32 @@ def profile_misfit(misfit: Misfit, threshold: Callable[[float], float]) -> Profi
     )
 
 
+def smallest_misfit(misfit: Misfit) -> float:
+    """Return the lowest misfit of the search, without its other minima.
+
+    Raises
+    ------
+    DomainError, InputError
+        As `profile_misfit`.
+    """
+    lowest, highest, _ = _limits(misfit)
+    gamma = _nodes(misfit, lowest, min(max(float(misfit.cuts.force.max()), lowest), highest))
+    for _ in range(ZOOMS):
+        heights = misfit.at(gamma).misfit
+        best = int(np.argmin(heights))
+        ends = gamma[max(best - 1, 0)], gamma[min(best + 1, gamma.size - 1)]
+        gamma = np.append(np.linspace(*ends, 17), gamma[best])
+    return float(misfit.at(gamma).misfit.min())
+
+
 def _limits(misfit: Misfit) -> tuple[float, float, tuple[str, str]]:
     """Return the ends of the toughness that model and bound set, and what sets them."""
     cuts, g, bound = misfit.cuts, misfit.model.g, misfit.known.toughness_max
-    lowest = float(g.lower * (cuts.shear_modulus * cuts.wire_radius.max()))
-    with np.errstate(over="ignore"):
-        highest = float(g.upper * (cuts.shear_modulus * cuts.wire_radius.min()))
+    lowest, highest = 0.0, np.inf
+    if not misfit.is_continued:
+        lowest = float(g.lower * (cuts.shear_modulus * cuts.wire_radius.max()))
+        with np.errstate(over="ignore"):
+            highest = float(g.upper * (cuts.shear_modulus * cuts.wire_radius.min()))
     if lowest > highest:
         thinnest, thickest = 1e3 * cuts.wire_radius.min(), 1e3 * cuts.wire_radius.max()
         raise DomainError(
@@ -182,13 +223,24 @@ def _limits(misfit: Misfit) -> tuple[float, float, tuple[str, str]]:
     return lowest, min(highest, bound), ends
 
 
-def _nodes(lowest: float, highest: float, largest_force: float) -> Array:
-    """Return the toughnesses of the scan, with 0 where that is the lowest."""
-    first = max(lowest, 10.0**-DECADES * min(largest_force, highest))
-    count = 2 + int(np.ceil(POINTS_A_DECADE * np.log10(highest / first)))
-    nodes = np.geomspace(first, highest, count)
-    nodes[0], nodes[-1] = first, highest
-    return np.unique(np.append(nodes, lowest))
+def _nodes(misfit: Misfit, lowest: float, highest: float) -> Array:
+    """Return the toughnesses of the scan, with 0 where that is the lowest.
+
+    Closely where the force or the arc of a wire changes with the toughness, else with wide steps.
+    """
+    cuts = misfit.cuts
+    first = max(lowest, 10.0**-DECADES * min(float(cuts.force.max()), highest))
+    small = cuts.shear_modulus * float(cuts.wire_radius.min())
+    close = min(max(first, min(NEGLIGIBLE * cuts.force.max(), SHORT_OF_TOUCH * small)), highest)
+    nodes = [_spaced(first, close, WIDE_POINTS), _spaced(close, highest, POINTS_A_DECADE)]
+    return np.unique(np.concatenate([[lowest], *nodes]))
+
+
+def _spaced(first: float, last: float, a_decade: int) -> Array:
+    count = 2 + int(np.ceil(a_decade * np.log10(last / first)))
+    nodes = np.geomspace(first, last, count)
+    nodes[0], nodes[-1] = first, last
+    return nodes
 
 
 def _at_end(gamma: float, scan: Array) -> bool:

@@ -72,6 +72,14 @@ class Cuts:
         Standard error of each force [N/m].
     shear_modulus, friction_coefficient, stiffening_exponent : float
         mu [Pa], xi [-] and alpha [-] of the material.
+    shear_modulus_std, friction_std, stiffening_std : float, default 0
+        Their standard errors [Pa], [-], [-].
+    sample : ndarray of int, shape (n,), or None
+        Number of the sample that each cut was made in.
+    sample_ratio : float, default 0
+        Standard deviation between samples over that of the forces within one [-].
+    weights : ndarray, shape (n,), or None
+        One over the standard error of each force but for a common factor, where it is estimated.
     """
 
     wire_radius: Array
@@ -80,10 +88,18 @@ class Cuts:
     shear_modulus: float
     friction_coefficient: float
     stiffening_exponent: float
+    shear_modulus_std: float = 0.0
+    friction_std: float = 0.0
+    stiffening_std: float = 0.0
+    sample: NDArray[np.int64] | None = None
+    sample_ratio: float = 0.0
+    weights: Array | None = None
 
     @property
     def weight(self) -> Array:
         """One over the standard error of each force [m/N], or 1 where none is known."""
+        if self.weights is not None:
+            return self.weights
         return np.ones_like(self.force) if self.force_std is None else 1.0 / self.force_std
 
 
@@ -94,6 +110,8 @@ def series_of_cuts(
     force_std: ArrayLike | None,
     material: tuple[float, float, float],
     fewest_radii: int,
+    stds: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    sample: ArrayLike | None = None,
 ) -> Cuts:
     """Return a validated series of cuts.
 
@@ -109,6 +127,10 @@ def series_of_cuts(
         mu [Pa], xi [-] and alpha [-].
     fewest_radii : int
         Different radii that are needed.
+    stds : tuple of float
+        Standard errors of mu [Pa], xi [-] and alpha [-].
+    sample : array_like, shape (n,), optional
+        Name of the sample of each cut.
 
     Raises
     ------
@@ -128,14 +150,97 @@ def series_of_cuts(
         std = np.full(forces.shape, std[0])
     _check_shapes(radius, forces, std, fewest_radii)
     modulus, friction, exponent = material
-    return Cuts(
-        radius,
-        forces,
-        std,
+    values = (
         one_number(SHEAR_MODULUS, modulus),
         one_number(FRICTION_COEFFICIENT, friction),
         one_number(checks.STIFFENING_EXPONENT, exponent),
     )
+    errors = (one_number(quantity, std) for quantity, std in zip(_STDS, stds, strict=True))
+    return Cuts(radius, forces, std, *values, *errors, _sample(sample, forces.size))
+
+
+def _std(name: str, unit: str) -> Quantity:
+    return Quantity(f"{name}_std", unit, "give a standard error of 0 or more", 0.0, _LARGEST)
+
+
+_STDS = (_std("shear_modulus", "Pa"), _std("friction", ""), _std("stiffening", ""))
+RELATIVE_ERROR = Quantity("relative_error", "", "give 0.05 for forces known to 5 %", 1e-30, 10.0)
+
+
+def _sample(names: ArrayLike | None, cuts: int) -> NDArray[np.int64] | None:
+    if names is None:
+        return None
+    numbers = np.unique(np.asarray(names).astype(str), return_inverse=True)[1].reshape(-1)
+    if numbers.size != cuts:
+        raise InputError(
+            f"sample must name the sample of each cut, but names {numbers.size} for {cuts} cuts; "
+            "give one name a cut."
+        )
+    return None if np.unique(numbers).size < 2 else numbers.astype(np.int64)
+
+
+def stated_errors(
+    force: ArrayLike, force_std: ArrayLike | None, relative_error: float | None
+) -> ArrayLike | None:
+    """Return the standard errors of forces [N/m], or None where neither argument states them.
+
+    Raises
+    ------
+    InputError
+        If both are given, or the relative one is out of range.
+
+    Examples
+    --------
+    >>> stated_errors([4.0, 8.0], None, 0.05)
+    array([0.2, 0.4])
+    """
+    if relative_error is None:
+        return force_std
+    if force_std is not None:
+        raise InputError(
+            "force_std and relative_error both state the errors of the forces; give one of them."
+        )
+    return np.asarray(one_number(RELATIVE_ERROR, relative_error) * column(FORCE, force))
+
+
+def material_of(
+    model: str, modulus: float | None, friction: float | None, exponent: float | None
+) -> tuple[float, tuple[float, float], tuple[str, ...]]:
+    """Return mu, (xi, |alpha|), and the names of those that are assumed.
+
+    In plane strain the incompressible Ogden solid has l_1 = 1/l_2, so that alpha and -alpha are
+    the same solid. Eq. (13) without friction has no modulus: any will do, and 1 Pa is taken.
+
+    Raises
+    ------
+    InputError
+        If the modulus is missing where the forces depend on it.
+
+    Examples
+    --------
+    >>> material_of("table", 685.0, None, -3.0)
+    (685.0, (0.0, 3.0), ('friction_coefficient',))
+    """
+    values = {"friction_coefficient": friction, "stiffening_exponent": exponent}
+    assumed = tuple(name for name, value in values.items() if value is None)
+    xi = 0.0 if friction is None else friction
+    alpha = DEFAULT_STIFFENING if exponent is None else exponent
+    if isinstance(alpha, (int, float)) and alpha < 0.0:
+        alpha = -alpha
+    if modulus is not None:
+        return modulus, (xi, alpha), assumed
+    if model not in WITHOUT_MODULUS or xi != 0.0:
+        raise InputError(
+            f"the shear modulus is missing, on which model {model!r} depends; give shear_modulus, "
+            "or model='eq13' without friction, which needs none."
+        )
+    return 1.0, (xi, alpha), ("shear_modulus", *assumed)
+
+
+DEFAULT_STIFFENING = 2.0
+"""Of a neo-Hookean solid."""
+
+WITHOUT_MODULUS = ("eq13", "low-toughness", "friction-free")
 
 
 def column(quantity: Quantity, values: ArrayLike) -> Array:

@@ -1,0 +1,298 @@
+"""The misfit of forces under any force model, with the best wear strength for each toughness.
+
+    F_ss/T = Gamma_o + 2 R_w [tau_w A(g) + xi mu B(g)],   g = Gamma_o/(mu R_w),
+
+is linear in tau_w >= 0 once Gamma_o is given, so that a search along Gamma_o alone finds all.
+
+What else is uncertain moves several forces together: the model's A and B, mu, xi, alpha. Each enters
+with its standard deviation as one more unknown with a prior, linearised about what is given, and is
+profiled out: the misfit is r' C^-1 r with C the covariance of the forces from all of it. The part of
+C that grows with tau_w is taken at the wear strength that fits best without it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.contact.base import ForceModel
+from surrogate.inference.continuation import contact_error, correlation, is_continued
+from surrogate.inference.inputs import Cuts, Known
+
+__all__ = ["SOURCES", "Misfit", "Profiled"]
+
+Array = NDArray[np.float64]
+
+SOURCES = ("model", "shear_modulus", "friction_coefficient", "stiffening_exponent", "sample")
+"""What the forces share besides their own scatter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Profiled:
+    """The best wear strength at each of several toughnesses.
+
+    Parameters
+    ----------
+    wear_strength, misfit : ndarray, shape (m,)
+        tau_w of 0 or more, or as known [Pa], and the misfit with it.
+    free_wear_strength, free_misfit : ndarray, shape (m,)
+        The same without the limit at 0.
+    curvature : ndarray, shape (m,)
+        Growth of the misfit over the square of a step in tau_w from the free one; infinite
+        where tau_w is known.
+    residuals : ndarray, shape (m, n)
+        Measured less predicted force of each cut [N/m].
+    """
+
+    wear_strength: Array
+    misfit: Array
+    free_wear_strength: Array
+    free_misfit: Array
+    curvature: Array
+    residuals: Array
+
+    def wear_strength_range(self, threshold: float) -> tuple[Array, Array]:
+        """Return the smallest and the largest tau_w of a misfit up to the threshold."""
+        with np.errstate(all="ignore"):
+            room = np.maximum(threshold - self.free_misfit, 0.0) / self.curvature
+        half = np.where(self.curvature > 0.0, np.sqrt(room), np.inf)
+        low = np.maximum(self.free_wear_strength - half, 0.0)
+        return low, self.free_wear_strength + half
+
+
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """Sum of squared residuals, in units of their standard errors where these are known.
+
+    Parameters
+    ----------
+    model : ForceModel
+        A and B.
+    cuts : Cuts
+        The forces.
+    known : Known
+        Facts besides them; priors add their own squares.
+    scale : float or None
+        What makes `cuts.weight` the inverse of a standard error: that of a force of weight 1 [N/m];
+        None leaves out all that the forces share but for samples.
+    """
+
+    model: ForceModel
+    cuts: Cuts
+    known: Known
+    scale: float | None = None
+
+    @cached_property
+    def _radii(self) -> tuple[Array, NDArray[np.intp]]:
+        radii, places = np.unique(self.cuts.wire_radius, return_inverse=True)
+        return radii, places.reshape(-1)
+
+    @property
+    def shares_errors(self) -> bool:
+        """Whether something besides the scatter of each force is uncertain."""
+        return any(True for _ in self.shared(np.ones(1), np.ones(1)))
+
+    def at(self, toughness: Array) -> Profiled:
+        """Return the best wear strengths at toughnesses [J/m2] of shape (m,)."""
+        base, arc = self._parts(toughness)
+        target = self.cuts.force - base
+        weighted = self._weighted(toughness, target, arc)
+        return self._best(toughness, target, arc, *weighted)
+
+    def without_each(self, toughness: Array) -> Array:
+        """Return the smallest misfits over toughnesses with each cut left out in turn, (n,)."""
+        smallest = []
+        for i in range(self.cuts.force.size):
+            weight = self.cuts.weight.copy()
+            weight[i] = 0.0
+            less = replace(self, cuts=replace(self.cuts, weights=weight))
+            smallest.append(float(less.at(toughness).misfit.min()))
+        return np.array(smallest)
+
+    def _best(
+        self, toughness: Array, target: Array, arc: Array, of_target: Array, of_arc: Array
+    ) -> Profiled:
+        """Return the best tau_w from forces to meet, arcs, and C^-1 times either."""
+        if self.known.wear_strength is not None:
+            wear = np.full(toughness.shape, self.known.wear_strength)
+            tau = wear[:, np.newaxis]
+            residuals = target - tau * arc
+            misfit = self._sum(residuals, of_target - tau * of_arc, toughness, wear)
+            return Profiled(wear, misfit, wear, misfit, np.full_like(wear, np.inf), residuals)
+        curvature, moment = (arc * of_arc).sum(axis=1), (arc * of_target).sum(axis=1)
+        if self.known.wear_strength_prior is not None:
+            mean, std = self.known.wear_strength_prior
+            curvature, moment = curvature + std**-2, moment + mean * std**-2
+        free = np.divide(moment, curvature, out=np.zeros_like(moment), where=curvature > 0.0)
+        wear = np.maximum(free, 0.0)
+        tau, free_tau = wear[:, np.newaxis], free[:, np.newaxis]
+        residuals = target - tau * arc
+        return Profiled(
+            wear,
+            self._sum(residuals, of_target - tau * of_arc, toughness, wear),
+            free,
+            self._sum(target - free_tau * arc, of_target - free_tau * of_arc, toughness, free),
+            curvature,
+            residuals,
+        )
+
+    def _weighted(self, toughness: Array, target: Array, arc: Array) -> tuple[Array, Array]:
+        """Return C^-1 times the forces to meet and times the arcs, each of shape (m, n)."""
+        weight = self.cuts.weight**2
+        of_target, of_arc = weight * target, weight * arc
+        if self.scale is None and not self.cuts.sample_ratio:
+            return of_target, of_arc
+        wear = self._best(toughness, target, arc, of_target, of_arc).wear_strength
+        factors = [factor for _, factor in self.shared(toughness, wear)]
+        if not factors:
+            return of_target, of_arc
+        # Woodbury: C^-1 = W - W K (1 + K' W K)^-1 K' W, with K in units of the scale
+        shared = np.concatenate(factors, axis=2) / (self.scale or 1.0)
+        heavy = weight[:, np.newaxis] * shared
+        inner = np.eye(shared.shape[2]) + np.swapaxes(shared, 1, 2) @ heavy
+        both = np.stack([target, arc], axis=2)
+        try:
+            absorbed = np.linalg.solve(inner, np.swapaxes(heavy, 1, 2) @ both)
+        except np.linalg.LinAlgError:
+            return of_target, of_arc
+        less = heavy @ absorbed
+        return of_target - less[:, :, 0], of_arc - less[:, :, 1]
+
+    def shared(self, toughness: Array, wear_strength: Array) -> Iterator[tuple[str, Array]]:
+        """Yield what moves forces together: a source, and by how much in standard deviations.
+
+        Each of shape (m, n, k) [N/m], for k independent errors of unit variance.
+        """
+        yield from self._sample_factor(toughness)
+        if self.scale is None:
+            return
+        wear = wear_strength[:, np.newaxis]
+        yield from self._model_factors(toughness, wear)
+        mu, xi, alpha = self._material
+        cuts = self.cuts
+        for name, std, value in (
+            ("shear_modulus", cuts.shear_modulus_std, mu),
+            ("stiffening_exponent", cuts.stiffening_std, alpha),
+        ):
+            if std > 0.0:
+                up, down = (
+                    replace(self, cuts=replace(cuts, **{name: value * np.exp(step)}))
+                    for step in (std / value, -std / value)
+                )
+                ends = [
+                    base + wear * arc
+                    for base, arc in (up._parts(toughness), down._parts(toughness))
+                ]
+                yield name, 0.5 * (ends[0] - ends[1])[:, :, np.newaxis]
+        if cuts.friction_std > 0.0:
+            load = self._per_cut(self._load(self._g(toughness)))
+            friction = 2.0 * cuts.wire_radius * mu * cuts.friction_std * load
+            yield "friction_coefficient", friction[:, :, np.newaxis]
+
+    def _sample_factor(self, toughness: Array) -> Iterator[tuple[str, Array]]:
+        cuts = self.cuts
+        if cuts.sample is not None and cuts.sample_ratio > 0.0:
+            same = cuts.sample[:, np.newaxis] == np.unique(cuts.sample)
+            weight = cuts.weight[:, np.newaxis]
+            unit = np.divide(1.0, weight, out=np.zeros_like(weight), where=weight > 0.0)
+            factor = cuts.sample_ratio * (self.scale or 1.0) * np.where(same, unit, 0.0)
+            yield "sample", np.broadcast_to(factor, (toughness.size, *factor.shape))
+
+    def _model_factors(self, toughness: Array, wear: Array) -> Iterator[tuple[str, Array]]:
+        g = self._g(toughness)
+        errors = contact_error(self.model, g, self.cuts.stiffening_exponent)
+        if errors is None or self.known.wear_strength == 0.0:
+            return
+        mu, xi, alpha = self._material
+        root = np.linalg.cholesky(correlation(g) + 1e-12 * np.eye(g.shape[1]))
+        stress = wear * self.model.arc(g, alpha) * errors[0]
+        scales = [stress]
+        if xi:
+            scales.append(xi * mu * self._load(g) * errors[1])
+        for scale in scales:
+            factor = (2.0 * self._radii[0] * scale)[:, :, np.newaxis] * root
+            yield "model", factor[:, self._radii[1]]
+
+    def slope(self, toughness: Array) -> Array:
+        """Return the derivative of the misfit by the toughness, with the best wear strength.
+
+        That the wear strength changes along adds nothing: the misfit is stationary in it. Where
+        errors are shared their covariance changes along as well, and differences are taken.
+        """
+        if self.shares_errors:
+            step = 1e-6
+            up, down = self.at(toughness * (1.0 + step)), self.at(toughness * (1.0 - step))
+            return np.asarray((up.misfit - down.misfit) / (2.0 * step * toughness))
+        best = self.at(toughness)
+        in_toughness = self.force_slopes(toughness, best.wear_strength)
+        slope = -2.0 * (self.cuts.weight**2 * best.residuals * in_toughness).sum(axis=1)
+        if self.known.toughness_prior is not None:
+            mean, std = self.known.toughness_prior
+            slope = slope + 2.0 * (toughness - mean) / std**2
+        return np.asarray(slope)
+
+    def force_slopes(self, toughness: Array, wear_strength: Array) -> Array:
+        """Return dF/dGamma_o of each cut [-], shape (m, n)."""
+        mu, xi, alpha = self._material
+        slope = np.ones((toughness.size, self._radii[0].size))
+        g = self._g(toughness)
+        with np.errstate(all="ignore"):
+            if np.any(wear_strength):
+                relative = (wear_strength / mu)[:, np.newaxis]
+                arc_slope = np.broadcast_to(self.model.arc_slopes(g, alpha)[0], g.shape)
+                slope += 2.0 * np.where(relative == 0.0, 0.0, relative * arc_slope)
+            if xi:
+                slope += 2.0 * xi * self.model.normal_load_slopes(g, alpha)[0]
+        return self._per_cut(slope)
+
+    def arcs(self, toughness: Array) -> Array:
+        """Return dF/dtau_w = 2 R_w A of each cut [m], shape (m, n)."""
+        return self._parts(toughness)[1]
+
+    @property
+    def is_continued(self) -> bool:
+        """Whether wires beyond the model's range do not end the search."""
+        return is_continued(self.model)
+
+    @property
+    def _material(self) -> tuple[float, float, float]:
+        cuts = self.cuts
+        return cuts.shear_modulus, cuts.friction_coefficient, cuts.stiffening_exponent
+
+    def _g(self, toughness: Array) -> Array:
+        return toughness[:, np.newaxis] / (self.cuts.shear_modulus * self._radii[0])
+
+    def _per_cut(self, values: Array) -> Array:
+        return values[:, self._radii[1]]
+
+    def _load(self, g: Array) -> Array:
+        return np.asarray(self.model.normal_load(g, self.cuts.stiffening_exponent))
+
+    def _parts(self, toughness: Array) -> tuple[Array, Array]:
+        """Return Gamma_o and friction, and 2 R_w A, of each cut; A and B only where needed."""
+        mu, xi, alpha = self._material
+        radii, _ = self._radii
+        g = self._g(toughness)
+        arc: Any = 0.0
+        base = np.broadcast_to(toughness[:, np.newaxis], g.shape)
+        with np.errstate(all="ignore"):
+            if self.known.wear_strength != 0.0:
+                arc = 2.0 * radii * self.model.arc(g, alpha)
+            if xi:
+                base = base + 2.0 * radii * xi * mu * self._load(g)
+        return self._per_cut(base), self._per_cut(np.broadcast_to(arc, g.shape))
+
+    def _sum(self, residuals: Array, weighted: Array, toughness: Array, wear: Array) -> Array:
+        total = (residuals * weighted).sum(axis=1)
+        for prior, value in (
+            (self.known.toughness_prior, toughness),
+            (self.known.wear_strength_prior, wear),
+        ):
+            if prior is not None:
+                total = total + ((value - prior[0]) / prior[1]) ** 2
+        return np.asarray(np.maximum(total, 0.0))
