@@ -14,7 +14,9 @@ Array = NDArray[np.float64]
 SECTIONS = 16
 
 
-def narrowed(holds: Callable[[Array], NDArray[np.bool_]], yes: Array, no: Array) -> Array:
+def narrowed(
+    holds: Callable[[Array], NDArray[np.bool_]], yes: Array, no: Array, rtol: float = 0.0
+) -> Array:
     """Return the last numbers at which a condition holds, between where it does and does not.
 
     All intervals are divided together, into sixteen parts at a time, until no number is between
@@ -26,6 +28,8 @@ def narrowed(holds: Callable[[Array], NDArray[np.bool_]], yes: Array, no: Array)
         Whether the condition holds at each of `intervals` times 15 numbers, interval by interval.
     yes, no : ndarray, shape (intervals,)
         Where it holds and where it does not; either may be the larger one.
+    rtol : float, default 0
+        Width over size of an interval that will do.
 
     Returns
     -------
@@ -39,7 +43,11 @@ def narrowed(holds: Callable[[Array], NDArray[np.bool_]], yes: Array, no: Array)
     1.414213562373095
     """
     shares = np.linspace(0.0, 1.0, SECTIONS + 1)
-    while np.any(((middle := 0.5 * (yes + no)) != yes) & (middle != no)):
+    while np.any(
+        ((middle := 0.5 * (yes + no)) != yes)
+        & (middle != no)
+        & (abs(yes - no) > rtol * abs(middle))
+    ):
         x = yes[:, np.newaxis] + (no - yes)[:, np.newaxis] * shares
         x[:, -1] = no
         inner = holds(x[:, 1:-1].ravel()).reshape(yes.size, -1)

@@ -14,6 +14,7 @@ from surrogate.basics.files import write_csv
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
 from surrogate.identification.fit import Identification
+from surrogate.inference.continuation import is_continued
 from surrogate.inference.inputs import PREDICTED_RADIUS
 from surrogate.inference.line_fit import is_linear
 from surrogate.version import __version__
@@ -121,7 +122,10 @@ def curve_radii(fit: Identification, largest: float) -> NDArray[np.float64]:
     if fit.profile is None or is_linear(fit.model):
         return np.linspace(0.0, largest, _POINTS)
     toughness = np.append(fit.profile.admitted[0], fit.toughness)
-    g = force_model(fit.model).g
+    model = force_model(fit.model)
+    if is_continued(model):
+        return np.linspace(largest / _POINTS, largest, _POINTS)
+    g = model.g
     first = max(largest / _POINTS, toughness.max() / (fit.shear_modulus * g.upper))
     if g.lower > 0.0:
         largest = min(largest, toughness.min() / (fit.shear_modulus * g.lower))

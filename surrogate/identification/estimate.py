@@ -17,6 +17,7 @@ from surrogate.cutting.transition_radius import (
 )
 from surrogate.errors import DomainError
 from surrogate.identification.further_wire import FurtherWire, forces_of
+from surrogate.inference.continuation import is_continued
 from surrogate.inference.inputs import (
     NOTHING_KNOWN,
     PREDICTED_RADIUS,
@@ -25,6 +26,7 @@ from surrogate.inference.inputs import (
     Known,
 )
 from surrogate.inference.line_fit import linear_form
+from surrogate.inference.misfit import Misfit
 from surrogate.inference.profile import Interval, Profile
 from surrogate.inference.quantiles import normal_quantile, student_quantile
 from surrogate.inference.scatter import Scatter
@@ -64,7 +66,7 @@ class Estimate:
     further_wire: FurtherWire | None = None
     model_error: tuple[float, float] | None = None
     contributions: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    without_each: Array | None = None
+    scale: float | None = None
     shear_modulus_std: float = 0.0
     friction_std: float = 0.0
     stiffening_std: float = 0.0
@@ -89,6 +91,11 @@ class Estimate:
             0.0 if self.scatter is None else self.scatter.sample_ratio,
             None if self.scatter is None else self.scatter.weights,
         )
+
+    @property
+    def misfit(self) -> Misfit:
+        """The misfit that was searched."""
+        return Misfit(force_model(self.model), self.cuts, self.known, self.scale)
 
     @property
     def dof(self) -> int:
@@ -266,7 +273,8 @@ class Estimate:
         InputError
             If a radius is negative or not a number.
         DomainError
-            If the model does not reach to g = Gamma_o/(mu R_w) of a wire.
+            If the model does not reach to g = Gamma_o/(mu R_w) of a wire; a fitted model is
+            continued by its asymptotes.
         """
         if self.profile is not None:
             radius = np.asarray(PREDICTED_RADIUS.checked(wire_radius))
@@ -301,7 +309,7 @@ class Estimate:
 
     def _forces(self, toughness: Array, wear_strength: Array, radius: Array) -> Array:
         model = force_model(self.model)
-        if model.g.lower > 0.0 or model.g.upper < LARGEST:
+        if not is_continued(model) and (model.g.lower > 0.0 or model.g.upper < LARGEST):
             self._radii_of(model.g, toughness).checked(radius)
         return forces_of(model, self.cuts, toughness, wear_strength, radius.reshape(-1))
 

@@ -70,7 +70,7 @@ def fit_profile(
         **linearised(misfit, best.toughness, best.wear_strength, scale if dof else np.nan),
         "profile": profile,
         "further_wire": further_wire(misfit, profile, std, searched),
-        "without_each": misfit.without_each(profile.toughness),
+        "scale": misfit.scale,
     }
 
 

@@ -1,12 +1,16 @@
 """How far a model's A and B may be off at any g, beyond the model's range as well.
 
 Inside its domain the bounds are those that were measured beside finite elements. Beyond it a fitted
-model is continued by its asymptotes, and the bound begins with the largest of the cells at that end
-and grows with the distance in ln g: by the slope that the continuation leaves out at the end, and
-by no less than the bound itself for each factor e. No arc is longer than A = 2, which ends it.
+model is continued by its asymptotes. What these leave out is a slope in ln g that is the same for
+all wires: the error begins with the largest bound of the cells at that end and drifts away in
+proportion to the distance in ln g, at the rate of the slope that the continuation drops at the end,
+and of no less than the bound for each factor e. No arc past the touch is longer than A = 2.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +19,42 @@ from surrogate.choosing.accuracy import contact_bounds
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel
 
-__all__ = ["CORRELATION_LENGTH", "contact_error", "correlation", "is_continued"]
+__all__ = ["CORRELATION_LENGTH", "ContactError", "contact_error", "correlation", "is_continued"]
 
 Array = NDArray[np.float64]
 
 LARGEST_ERROR = float(np.log(2.0))
 """Of ln A: an arc past the touch is between 1 and 2."""
 
+FARTHEST = 700.0
+"""In ln g, where the smallest float is."""
+
 CORRELATION_LENGTH = 1.0
-"""Distance in ln g over which a model's errors go together. A fit follows solutions that are closer
-than that and its cells of bounds are wider. A longer one would only scale tau_w, a shorter one would
-average out over the wires like scatter: neither could pull the toughness as far."""
+"""Distance in ln g over which a model's errors inside its domain go together. A fit follows
+solutions that are closer than that, and its cells of bounds are wider. Errors of a longer reach
+would only scale tau_w, those of a shorter one average out over the wires like scatter."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactError:
+    """Standard deviations of the relative errors of A and B [-], each of the shape of g.
+
+    Parameters
+    ----------
+    arc, load : ndarray
+        Of the model at the nearest g inside its range.
+    arc_drift, load_drift : ndarray
+        Of the continuation beyond, the same for all wires but for this factor.
+    below, above : ndarray of bool
+        Beyond which end.
+    """
+
+    arc: Array
+    load: Array
+    arc_drift: Array
+    load_drift: Array
+    below: NDArray[np.bool_]
+    above: NDArray[np.bool_]
 
 
 def is_continued(model: ForceModel) -> bool:
@@ -40,8 +69,8 @@ def is_continued(model: ForceModel) -> bool:
     return isinstance(model, FittedModel)
 
 
-def contact_error(model: ForceModel, g: Array, alpha: float) -> tuple[Array, Array] | None:
-    """Return the standard deviations of the relative errors of A and B [-], finite at every g.
+def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | None:
+    """Return the errors of A and B, finite at every g; None for a model that nobody measured.
 
     Bound over sqrt(3), that of an error which may be anything up to its bound.
 
@@ -54,11 +83,6 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> tuple[Array, Arr
     alpha : float
         Stiffening exponent within the model's range [-].
 
-    Returns
-    -------
-    tuple of ndarray, or None
-        None for a model that nobody measured.
-
     References
     ----------
     JCGM 100:2008, Guide to the expression of uncertainty in measurement, section 4.3.7.
@@ -66,48 +90,49 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> tuple[Array, Arr
     Examples
     --------
     >>> from surrogate.choosing.by_name import force_model
-    >>> arc, load = contact_error(force_model("table"), np.array([1.0, 100.0, 1e4]), 2.0)
-    >>> bool(arc[0] < arc[1] < arc[2] < 0.5)
-    True
+    >>> error = contact_error(force_model("table"), np.array([1.0, 100.0, 1e3, 1e4]), 2.0)
+    >>> error.arc_drift[:2].tolist(), bool(error.arc_drift[2] < error.arc_drift[3])
+    ([0.0, 0.0], True)
     """
-    if not isinstance(model, FittedModel) or contact_bounds(model, 1.0, alpha) is None:
+    if not isinstance(model, FittedModel):
         return None
     low, high = model.limits.g
-    inside = np.clip(g, low, high)
+    inside = np.minimum(np.maximum(g, low), high)
     near = contact_bounds(model, inside, alpha)
-    assert near is not None
-    with np.errstate(divide="ignore"):
-        beyond = np.abs(np.log(g) - np.log(inside))  # infinite at g = 0
-    rates = np.where(np.asarray(g < low)[..., np.newaxis], *_dropped_slopes(model, alpha))
-    arc, load = (
-        np.minimum(bound + np.where(beyond > 0.0, beyond * np.maximum(rate, bound), 0.0), limit)
-        / np.sqrt(3.0)
-        for bound, rate, limit in zip(
-            near, np.moveaxis(rates, -1, 0), (LARGEST_ERROR, np.inf), strict=True
-        )
-    )
-    return arc, np.minimum(load, 1.0)
+    if near is None:
+        return None
+    below, above = g < low, g > high
+    drifts = []
+    for bound, rates in zip(near, _dropped_slopes(model, float(alpha)), strict=True):
+        drift = np.zeros_like(g)
+        if np.any(below) or np.any(above):
+            with np.errstate(divide="ignore"):
+                beyond = np.abs(np.log(g) - np.log(inside))  # infinite at g = 0
+            rate = np.maximum(np.where(below, *rates), bound)
+            drift = np.where(below | above, np.minimum(beyond, FARTHEST) * rate, 0.0)
+        drifts.append(np.minimum(drift, LARGEST_ERROR) / np.sqrt(3.0))
+    return ContactError(near[0] / np.sqrt(3.0), near[1] / np.sqrt(3.0), *drifts, below, above)
 
 
-def _dropped_slopes(model: FittedModel, alpha: float) -> tuple[Array, Array]:
-    """Return, at the low and at the high end, d ln/d ln g of A and B inside less that outside."""
+@lru_cache(maxsize=64)
+def _dropped_slopes(
+    model: FittedModel, alpha: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return d ln/d ln g of A and of B inside less that outside, at the low and the high end."""
     step, (low, high) = 1e-6, model.limits.g
     g = np.array([low / (1.0 + step), low * (1.0 + step), high / (1.0 + step), high * (1.0 + step)])
-    slopes = [
-        g * in_g / value
-        for (in_g, _), value in (
+    arc, load = (
+        np.abs(np.diff((g * slopes[0] / value).reshape(2, 2))).ravel().tolist()
+        for slopes, value in (
             (model.arc_slopes(g, alpha), model.arc(g, alpha)),
             (model.normal_load_slopes(g, alpha), model.normal_load(g, alpha)),
         )
-    ]
-    jumps = np.abs([[each[0] - each[1], each[2] - each[3]] for each in slopes])
-    return jumps[:, 0], jumps[:, 1]
-
-
-def correlation(g: Array) -> Array:
-    """Return the correlation of the errors at several g, shape (..., m, m) for g of (..., m)."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        log_g = np.maximum(np.log(g), -700.0)
-    return np.asarray(
-        np.exp(-np.abs(log_g[..., :, np.newaxis] - log_g[..., np.newaxis, :]) / CORRELATION_LENGTH)
     )
+    return (arc[0], arc[1]), (load[0], load[1])
+
+
+def correlation(radius: Array) -> Array:
+    """Return the correlation of a model's errors on wires of one material, shape (m, m)."""
+    log_radius = np.log(radius)
+    apart = np.abs(log_radius[:, np.newaxis] - log_radius)
+    return np.asarray(np.exp(-apart / CORRELATION_LENGTH))

@@ -4,10 +4,10 @@
 
 is linear in tau_w >= 0 once Gamma_o is given, so that a search along Gamma_o alone finds all.
 
-What else is uncertain moves several forces together: the model's A and B, mu, xi, alpha. Each enters
-with its standard deviation as one more unknown with a prior, linearised about what is given, and is
-profiled out: the misfit is r' C^-1 r with C the covariance of the forces from all of it. The part of
-C that grows with tau_w is taken at the wear strength that fits best without it.
+What else is uncertain moves several forces together: the model's A and B, mu, xi, alpha. Each is
+one more unknown with a prior, linearised about what is given, and is profiled out: the misfit is
+r' C^-1 r with C the covariance of the forces from all of it. The part of C that grows with tau_w is
+taken at the wear strength that fits best without it.
 """
 
 from __future__ import annotations
@@ -92,16 +92,22 @@ class Misfit:
         radii, places = np.unique(self.cuts.wire_radius, return_inverse=True)
         return radii, places.reshape(-1)
 
-    @property
+    @cached_property
     def shares_errors(self) -> bool:
         """Whether something besides the scatter of each force is uncertain."""
         return any(True for _ in self.shared(np.ones(1), np.ones(1)))
+
+    @cached_property
+    def _root(self) -> Array:
+        """A square root of the correlation of the model's errors over the different wires."""
+        radii = self._radii[0]
+        return np.linalg.cholesky(correlation(radii) + 1e-12 * np.eye(radii.size))
 
     def at(self, toughness: Array) -> Profiled:
         """Return the best wear strengths at toughnesses [J/m2] of shape (m,)."""
         base, arc = self._parts(toughness)
         target = self.cuts.force - base
-        weighted = self._weighted(toughness, target, arc)
+        weighted = self._weighted(toughness, target, base, arc)
         return self._best(toughness, target, arc, *weighted)
 
     def without_each(self, toughness: Array) -> Array:
@@ -141,14 +147,16 @@ class Misfit:
             residuals,
         )
 
-    def _weighted(self, toughness: Array, target: Array, arc: Array) -> tuple[Array, Array]:
+    def _weighted(
+        self, toughness: Array, target: Array, base: Array, arc: Array
+    ) -> tuple[Array, Array]:
         """Return C^-1 times the forces to meet and times the arcs, each of shape (m, n)."""
         weight = self.cuts.weight**2
         of_target, of_arc = weight * target, weight * arc
         if self.scale is None and not self.cuts.sample_ratio:
             return of_target, of_arc
         wear = self._best(toughness, target, arc, of_target, of_arc).wear_strength
-        factors = [factor for _, factor in self.shared(toughness, wear)]
+        factors = [factor for _, factor in self._shared(toughness, wear, base, arc)]
         if not factors:
             return of_target, of_arc
         # Woodbury: C^-1 = W - W K (1 + K' W K)^-1 K' W, with K in units of the scale
@@ -168,33 +176,38 @@ class Misfit:
 
         Each of shape (m, n, k) [N/m], for k independent errors of unit variance.
         """
-        yield from self._sample_factor(toughness)
+        yield from self._shared(toughness, wear_strength, *self._parts(toughness))
+
+    def _shared(
+        self, toughness: Array, wear_strength: Array, base: Array, arc: Array
+    ) -> Iterator[tuple[str, Array]]:
+        yield from self._of_samples(toughness)
         if self.scale is None:
             return
-        wear = wear_strength[:, np.newaxis]
-        yield from self._model_factors(toughness, wear)
-        mu, xi, alpha = self._material
-        cuts = self.cuts
-        for name, std, value in (
-            ("shear_modulus", cuts.shear_modulus_std, mu),
-            ("stiffening_exponent", cuts.stiffening_std, alpha),
+        cuts, wear = self.cuts, wear_strength[:, np.newaxis]
+        yield from self._of_model(toughness, wear * arc, base - toughness[:, np.newaxis])
+        for name, std in (
+            ("shear_modulus", cuts.shear_modulus_std),
+            ("stiffening_exponent", cuts.stiffening_std),
         ):
             if std > 0.0:
-                up, down = (
-                    replace(self, cuts=replace(cuts, **{name: value * np.exp(step)}))
-                    for step in (std / value, -std / value)
-                )
-                ends = [
-                    base + wear * arc
-                    for base, arc in (up._parts(toughness), down._parts(toughness))
-                ]
-                yield name, 0.5 * (ends[0] - ends[1])[:, :, np.newaxis]
+                yield name, self._secant(toughness, wear, name, std)
         if cuts.friction_std > 0.0:
             load = self._per_cut(self._load(self._g(toughness)))
-            friction = 2.0 * cuts.wire_radius * mu * cuts.friction_std * load
-            yield "friction_coefficient", friction[:, :, np.newaxis]
+            stress = cuts.shear_modulus * cuts.friction_std * load
+            yield "friction_coefficient", (2.0 * cuts.wire_radius * stress)[:, :, np.newaxis]
 
-    def _sample_factor(self, toughness: Array) -> Iterator[tuple[str, Array]]:
+    def _secant(self, toughness: Array, wear: Array, name: str, std: float) -> Array:
+        """Return half the change of the forces over two standard errors of mu or alpha."""
+        value = getattr(self.cuts, name)
+        up, down = (
+            replace(self, cuts=replace(self.cuts, **{name: value * np.exp(step)}))
+            for step in (std / value, -std / value)
+        )
+        (base, arc), (less_base, less_arc) = up._parts(toughness), down._parts(toughness)
+        return np.asarray(0.5 * (base - less_base + wear * (arc - less_arc))[:, :, np.newaxis])
+
+    def _of_samples(self, toughness: Array) -> Iterator[tuple[str, Array]]:
         cuts = self.cuts
         if cuts.sample is not None and cuts.sample_ratio > 0.0:
             same = cuts.sample[:, np.newaxis] == np.unique(cuts.sample)
@@ -203,20 +216,23 @@ class Misfit:
             factor = cuts.sample_ratio * (self.scale or 1.0) * np.where(same, unit, 0.0)
             yield "sample", np.broadcast_to(factor, (toughness.size, *factor.shape))
 
-    def _model_factors(self, toughness: Array, wear: Array) -> Iterator[tuple[str, Array]]:
-        g = self._g(toughness)
-        errors = contact_error(self.model, g, self.cuts.stiffening_exponent)
-        if errors is None or self.known.wear_strength == 0.0:
+    def _of_model(
+        self, toughness: Array, worn: Array, friction: Array
+    ) -> Iterator[tuple[str, Array]]:
+        """Yield the model's own errors, in proportion to what wear and friction add to a force."""
+        error = contact_error(self.model, self._g(toughness), self.cuts.stiffening_exponent)
+        if error is None or self.known.wear_strength == 0.0:
             return
-        mu, xi, alpha = self._material
-        root = np.linalg.cholesky(correlation(g) + 1e-12 * np.eye(g.shape[1]))
-        stress = wear * self.model.arc(g, alpha) * errors[0]
-        scales = [stress]
-        if xi:
-            scales.append(xi * mu * self._load(g) * errors[1])
-        for scale in scales:
-            factor = (2.0 * self._radii[0] * scale)[:, :, np.newaxis] * root
-            yield "model", factor[:, self._radii[1]]
+        root = self._root[self._radii[1]]
+        parts = [(worn, error.arc, error.arc_drift)]
+        if self.cuts.friction_coefficient:
+            parts.append((friction, error.load, error.load_drift))
+        for part, near, drift in parts:
+            yield "model", (part * self._per_cut(near))[:, :, np.newaxis] * root
+            for beyond in (error.below, error.above):
+                if np.any(beyond):
+                    drifts = part * self._per_cut(np.where(beyond, drift, 0.0))
+                    yield "model", drifts[:, :, np.newaxis]
 
     def slope(self, toughness: Array) -> Array:
         """Return the derivative of the misfit by the toughness, with the best wear strength.

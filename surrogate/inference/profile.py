@@ -33,6 +33,9 @@ BEYOND = 2.0
 ROUNDING = 1e3 * np.finfo(float).eps
 """Height, over the forces' own sum of squares, from which a barrier between minima counts."""
 
+SHARED_RTOL = 1e-7
+"""Of toughnesses where errors are shared, far below what any force tells."""
+
 ZOOMS = 6
 """Each finer by about a factor of eight, to the square root of rounding."""
 
@@ -243,6 +246,11 @@ def _spaced(first: float, last: float, a_decade: int) -> Array:
     return nodes
 
 
+def _rtol(misfit: Misfit) -> float:
+    """Return how closely a toughness is narrowed down: misfits by differences allow no more."""
+    return SHARED_RTOL if misfit.shares_errors else 0.0
+
+
 def _at_end(gamma: float, scan: Array) -> bool:
     return gamma > 0.0 and gamma in (*scan[scan > 0.0][:1], scan[-1])
 
@@ -252,7 +260,9 @@ def _minima(misfit: Misfit, scan: Array, heights: Array) -> Array:
     interior = scan[scan > 0.0]
     slope = misfit.slope(interior)
     turns = (slope[:-1] < 0.0) & (slope[1:] >= 0.0)
-    falling = narrowed(lambda x: misfit.slope(x) < 0.0, interior[:-1][turns], interior[1:][turns])
+    falling = narrowed(
+        lambda x: misfit.slope(x) < 0.0, interior[:-1][turns], interior[1:][turns], _rtol(misfit)
+    )
     found = [np.nextafter(falling, np.inf)]
     has_zero = interior.size < scan.size
     if has_zero and heights[0] <= heights[1] and (slope[0] >= 0.0 or heights[0] == heights.min()):
@@ -287,15 +297,18 @@ def _pieces(misfit: Misfit, points: Array, heights: Array, limit: float) -> list
     starts = np.flatnonzero(inside & ~np.append(False, inside[:-1]))
     stops = np.flatnonzero(inside & ~np.append(inside[1:], False))
     lows, highs = points[starts], points[stops]
-    begins, ends = starts > 0, stops < points.size - 1
+    to_zero = points[0] == 0.0 and starts[0] == 1
+    # to 0 where A may jump, and which no force can tell from its limit
+    begins, ends = starts > int(to_zero), stops < points.size - 1
     edges = narrowed(
         lambda x: misfit.at(x).misfit <= limit,
         np.concatenate([lows[begins], highs[ends]]),
         np.concatenate([points[starts[begins] - 1], points[stops[ends] + 1]]),
+        _rtol(misfit),
     )
     lows[begins], highs[ends] = np.split(edges, [np.count_nonzero(begins)])
-    if points[0] == 0.0 and starts[0] == 1:
-        lows[0] = 0.0  # where A may jump, and which no force can tell from its limit
+    if to_zero:
+        lows[0] = 0.0
     return list(zip(lows.tolist(), highs.tolist(), strict=True))
 
 
@@ -317,7 +330,7 @@ def _wear_interval(misfit: Misfit, sampled: Array, limit: float) -> Interval:
 
     def extreme(values: Array, sign: float) -> float:
         x, y = gamma, sign * values
-        for _ in range(8):
+        for _ in range(5):
             best = int(np.argmax(y))
             x = np.linspace(x[max(best - 1, 0)], x[min(best + 1, x.size - 1)], 17)
             bounds = misfit.at(x).wear_strength_range(limit)
