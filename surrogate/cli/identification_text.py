@@ -13,8 +13,8 @@ from surrogate.cli.alternatives import alternatives_record, alternatives_text
 from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
-from surrogate.identification.doubts import wire_in_words
 from surrogate.identification.fit import Identification
+from surrogate.identification.open_questions import wire_in_words
 from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
 

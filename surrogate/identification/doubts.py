@@ -9,14 +9,22 @@ import numpy as np
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
-from surrogate.identification.estimate import Estimate
-from surrogate.identification.further_wire import FurtherWire
-from surrogate.inference.profile import Mode, Profile
-from surrogate.inference.quantiles import normal_quantile, student_quantile
+from surrogate.contact.fitted import FittedModel
+from surrogate.identification.estimate import OPEN_ENDS, Estimate
+from surrogate.identification.slips import slip_in_words
+from surrogate.inference.continuation import contact_error
+from surrogate.inference.inputs import Array
+from surrogate.inference.profile import without_each
+from surrogate.inference.quantiles import (
+    chi_squared_limit,
+    exceeds_f,
+    normal_quantile,
+    student_quantile,
+)
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import doubts
 
-__all__ = ["undecided", "wire_in_words"]
+__all__ = ["fit_warnings"]
 
 LARGEST_CONDITION = 30.0
 """Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
@@ -26,8 +34,20 @@ FALSE_ALARM = 0.01
 """Probability that a sound experiment, of however many cuts, is given an outlier warning; and
 the same for a misfit warning."""
 
-CORNER = 1e-3
-"""Cosine between residuals and slope from which the misfit counts as having a corner."""
+ALIKE = 1.2
+"""Thickest wire over thinnest below which radii are alike."""
+
+POOR = 0.5
+"""R^2 below which the fit is not worth its numbers."""
+
+SLIP_GAIN = 10.0
+"""Times smaller that a slip's misfit must be where nothing else says what is acceptable."""
+
+FEWEST_OTHERS = 3
+"""Degrees of freedom from which the other cuts tell how far off one of them is."""
+
+LEAST_SCATTER = 1e-3
+"""Of the forces; others that agree better do so by chance or by rounding."""
 
 _ROUNDING = 64.0 * np.finfo(float).eps
 
@@ -53,14 +73,17 @@ def fit_warnings(fit: Estimate) -> Iterator[str]:
     only 2 different radii: they
     """
     for reasons in (
+        _limits,
+        _out_of_range,
+        _misfit,
+        _physical,
+        _negative_estimates,
+        _outlier,
         _implausible,
         _too_few_radii,
         _condition,
-        _negative_estimates,
-        _limits,
         _regime,
         _scatter,
-        _outlier,
     ):
         yield from reasons(fit)
 
@@ -74,7 +97,7 @@ def _implausible(fit: Estimate) -> Iterator[str]:
     if fit.known.wear_strength:
         yield from doubts(plausibility.WEAR_STRENGTH, fit.known.wear_strength)
     least = fit.toughness - fit.toughness_std  # what the forces hardly determine is not doubted
-    if least > 0.0:
+    if least > 0.0 and "shear_modulus" not in fit.assumed:
         yield from doubts(plausibility.COHESIVE_LENGTH, least / fit.shear_modulus)
 
 
@@ -88,11 +111,19 @@ def _too_few_radii(fit: Estimate) -> Iterator[str]:
 
 def _condition(fit: Estimate) -> Iterator[str]:
     if fit.condition > LARGEST_CONDITION:
-        smallest, largest = 1e3 * fit.wire_radius.min(), 1e3 * fit.wire_radius.max()
+        smallest, largest = fit.wire_radius.min(), fit.wire_radius.max()
+        alike = largest < ALIKE * smallest
         yield (
-            f"the radii ({smallest:.4g} to {largest:.4g} mm) are too alike to tell toughness from "
-            f"wear (condition number {fit.condition:.0f}, limit {LARGEST_CONDITION:.0f}); "
-            "add much thinner or thicker wires"
+            "toughness and wear change the forces of these wires in nearly the same way (condition "
+            f"number {fit.condition:.0f}, limit {LARGEST_CONDITION:.0f}) and can hardly be told "
+            "apart"
+            + (
+                f": the radii ({1e3 * smallest:.4g} to {1e3 * largest:.4g} mm) are too alike; add "
+                "much thinner or thicker wires"
+                if alike
+                else f" near this estimate; the wires of {1e3 * smallest:.4g} to "
+                f"{1e3 * largest:.4g} mm need thinner or thicker ones beside them"
+            )
         )
 
 
@@ -108,15 +139,24 @@ def _negative_estimates(fit: Estimate) -> Iterator[str]:
 
 
 def _limits(fit: Estimate) -> Iterator[str]:
-    if fit.profile is None:
+    profile = fit.profile
+    if profile is None:
         return
-    if fit.profile.modes[0].at_end:
-        below = fit.toughness < fit.profile.searched[1]
-        what = fit.profile.ends[0 if below else 1]
-        limit = "given bound" if what == "bound" else f"end of what model '{fit.model}' covers"
+    below, above = fit.toughness_limited_by
+    if profile.modes[0].at_end and fit.toughness > 0.0:
+        high = fit.toughness >= profile.searched[1]
+        what = above if high else below
         yield (
-            f"the toughness is at the {limit} ({fit.toughness:.4g} J/m2), beyond which the forces "
-            "would be met better"
+            f"the toughness is at the {_end_in_words(fit, what)} ({fit.toughness:.4g} J/m2), "
+            "beyond which the forces would be met better: it is "
+            f"{'at least' if high else 'at most'} that, without a standard error{_remedy(what)}"
+        )
+    elif above in OPEN_ENDS or below in OPEN_ENDS:
+        which = "above" if above in OPEN_ENDS else "below"
+        what = above if above in OPEN_ENDS else below
+        yield (
+            f"nothing but the {_end_in_words(fit, what)} ends the toughness {which}: its interval "
+            f"is one-sided{_remedy(what)}"
         )
     for name, value, known in (
         ("toughness", fit.toughness, False),
@@ -126,12 +166,104 @@ def _limits(fit: Estimate) -> Iterator[str]:
             yield f"the {name} is 0, its limit: no larger one meets the forces as well"
 
 
+def _end_in_words(fit: Estimate, what: str) -> str:
+    covered = force_model(fit.model).g
+    return {
+        "model": f"end of what model '{fit.model}' covers for all wires (g from "
+        f"{covered.lower:.4g} to {covered.upper:.4g})",
+        "bound": "given bound",
+        "search": "end of the search",
+    }.get(what, "end of the search")
+
+
+def _remedy(what: str) -> str:
+    if what != "model":
+        return ""
+    return "; leave out the thinnest or thickest wire, or name another model"
+
+
+def _out_of_range(fit: Estimate) -> Iterator[str]:
+    """Name the wires for which a fitted model is continued beyond its range."""
+    model = force_model(fit.model)
+    if not isinstance(model, FittedModel) or fit.known.wear_strength == 0.0:
+        return
+    low, high = model.limits.g
+    g = fit.dimensionless_toughness
+    outside = (g < low) | (g > high)
+    if not np.any(outside):
+        return
+    radii = ", ".join(f"{1e3 * radius:.3g}" for radius in np.unique(fit.wire_radius[outside]))
+    error = contact_error(model, g[outside], fit.stiffening_exponent)
+    assert error is not None
+    share = 100.0 * float(np.max(np.hypot(error.arc, error.arc_drift)))
+    yield (
+        f"{np.count_nonzero(outside)} of {g.size} cuts (R_w = {radii} mm) are at g = "
+        f"Gamma_o/(mu R_w) of {g[outside].min():.3g} to {g[outside].max():.3g}, beyond the range "
+        f"of model '{fit.model}' ({low:g} to {high:g}): it is continued by its asymptotes, and an "
+        f"error of up to {share:.2g} % of the arc of contact is part of the intervals; check the "
+        "shear modulus, or leave these wires out if others remain"
+    )
+
+
+def _misfit(fit: Estimate) -> Iterator[str]:
+    """Say that the forces are not met, and which slip would explain it."""
+    if fit.dof <= 0 or _is_exact(fit):
+        return
+    limit = chi_squared_limit(fit.dof, FALSE_ALARM)
+    if fit.reduced_chi_squared is not None:
+        if fit.reduced_chi_squared > limit:
+            yield (
+                f"chi^2/dof = {fit.reduced_chi_squared:.3g} is above {limit:.3g}: the forces "
+                f"scatter about the {_shape(fit)} more than force_std allows; "
+                f"{_cause(fit, limit * fit.dof)}the standard errors are too small"
+            )
+        return
+    total = float(np.sum((fit.cuts.weight * fit.residuals) ** 2))
+    scatter = fit.scatter
+    groups = np.unique(fit.wire_radius).size
+    if scatter is not None and groups > 2 and scatter.pure_misfit > 0.0:
+        pure = scatter.pure_misfit / scatter.dof
+        lack = max(total - scatter.pure_misfit, 0.0) / (groups - 2)
+        if exceeds_f(lack / pure, (groups - 2, scatter.dof), FALSE_ALARM):
+            acceptable = total if total <= 0 else pure * (fit.dof) * 2.0
+            yield (
+                f"the means of the wires are {np.sqrt(lack / pure):.2g} times as far off the "
+                f"{_shape(fit)} as repeated cuts scatter: the {_shape(fit)} does not hold; "
+                f"{_cause(fit, acceptable)}the intervals cannot be relied on"
+            )
+            return
+    if fit.r_squared < POOR:
+        yield (
+            f"the {_shape(fit)} explains {'nothing' if fit.r_squared <= 0.0 else 'little'} of how "
+            f"the forces vary (R^2 = {fit.r_squared:.2f}); "
+            f"{_cause(fit, total / SLIP_GAIN)}look at the forces before any number"
+        )
+
+
+def _cause(fit: Estimate, acceptable: float) -> str:
+    words = slip_in_words(fit, acceptable)
+    return "" if words is None else f"it would be explained if {words}; "
+
+
+def _physical(fit: Estimate) -> Iterator[str]:
+    least = fit.toughness - 2.0 * np.nan_to_num(fit.toughness_std)
+    smallest = float(fit.force.min())
+    if least > smallest:
+        yield (
+            f"the toughness ({fit.toughness:.4g} J/m2) is above the smallest force "
+            f"({smallest:.4g} N/m), though no wire cuts with less than the toughness: check the "
+            "shear modulus and the units"
+        )
+
+
 def _regime(fit: Estimate) -> Iterator[str]:
     chosen = force_model(fit.model)
+    if isinstance(chosen, FittedModel):
+        return
     if not isinstance(chosen, ClosedForm):
         yield from _domain(fit, chosen)
         return
-    g = fit.dimensionless_toughness
+    g = fit.dimensionless_toughness  # nan is not above
     if (beyond := int(np.count_nonzero(g > 1.0))) > 0:
         yield (
             f"{beyond} of {g.size} wires cut at g = Gamma_o/(mu R_w) above 1 "
@@ -177,61 +309,46 @@ def _scatter(fit: Estimate) -> Iterator[str]:
             f"the forces lie on the {_shape(fit)} to the last digit, which no measurement does: "
             "the residuals say nothing about the experiment's uncertainty"
         )
-    elif fit.reduced_chi_squared is not None and fit.dof > 0:
-        limit = _reduced_chi_squared_limit(fit.dof)
-        if fit.reduced_chi_squared > limit:
-            yield (
-                f"chi^2/dof = {fit.reduced_chi_squared:.3g} is above {limit:.3g}: the forces "
-                f"scatter about the {_shape(fit)} more than force_std allows; the {_shape(fit)} "
-                "does not hold, or force_std is too small, and so are the standard errors"
-            )
 
 
 def _outlier(fit: Estimate) -> Iterator[str]:
-    """Compare the residuals with their own spread (Bonferroni over cuts), and name the worst.
+    """Leave out each cut in turn, and name the one without which the misfit falls too far.
 
-    Only the worst, because one bad cut drags the line away from the good ones. Without known
-    standard errors the spread is that of the other cuts, each left out in turn.
+    By chi^2 of one degree of freedom where standard errors are known, else by that of the others;
+    Bonferroni over cuts. Only the worst, because one bad cut drags the curve from the good ones.
     """
-    # at a limit, or where the curve has a corner, the residuals have another spread
-    if _is_exact(fit) or any(_limits(fit)) or _at_corner(fit):
+    few = fit.force_std is None and fit.dof < FEWEST_OTHERS
+    if fit.dof < 2 or few or _is_exact(fit):
         return
     confidence = 1.0 - FALSE_ALARM / fit.force.size
-    spread = np.sqrt(np.maximum(1.0 - fit.leverage, 0.0))
-    testable = spread > 1e-6  # a cut that the line must pass through cannot deviate
-    deviation = np.zeros_like(fit.residuals)
-    if fit.force_std is not None:
-        scaled = fit.residuals / fit.force_std
-        limit = normal_quantile(confidence)
-        np.divide(scaled, spread, out=deviation, where=testable)
-    elif fit.dof > 1:
-        scaled = fit.residuals / np.sqrt(fit.residuals @ fit.residuals / fit.dof)
-        limit = student_quantile(confidence, fit.dof - 1)
-        np.divide(scaled, spread, out=deviation, where=testable)
-        others = np.maximum(fit.dof - deviation**2, fit.dof * _ROUNDING)
-        deviation *= np.sqrt((fit.dof - 1) / others)
-    else:
-        return
-    worst = int(np.argmax(np.abs(deviation)))
-    if abs(deviation[worst]) > limit:
+    all_cuts, others = _left_out(fit)
+    with np.errstate(all="ignore"):
+        fall = np.maximum(all_cuts - others, 0.0)
+        if fit.force_std is not None:
+            limit, deviation = normal_quantile(confidence), np.sqrt(fall)
+        else:
+            least = (LEAST_SCATTER * fit.cuts.weight * fit.force).max() ** 2
+            variance = np.maximum(others / (fit.dof - 1), least)
+            limit = student_quantile(confidence, fit.dof - 1)
+            deviation = np.sqrt(fall / variance)
+    worst = int(np.argmax(deviation))
+    if deviation[worst] > limit:
         yield (
             f"cut {worst + 1} (R_w = {1e3 * fit.wire_radius[worst]:.4g} mm, "
-            f"{fit.force[worst]:.4g} N/m) is {abs(deviation[worst]):.1f} standard deviations off "
-            f"the {_shape(fit)} (limit {limit:.1f}): an outlier; repeat that cut"
+            f"{fit.force[worst]:.4g} N/m) is {deviation[worst]:.1f} standard deviations off the "
+            f"{_shape(fit)} through the others (limit {limit:.1f}): an outlier; repeat that cut"
         )
 
 
-def _at_corner(fit: Estimate) -> bool:
-    """Return whether the misfit has a corner at the estimate, as where the tip touches a wire.
-
-    At a smooth minimum the weighted residuals are at right angles to the force's slope.
-    """
-    if fit.profile is None or fit.known.toughness_prior is not None:
-        return False
-    weight = fit.cuts.weight
-    slope, residuals = weight * fit.force_slopes(fit.wire_radius)[:, 0], weight * fit.residuals
-    size = float(np.linalg.norm(slope) * np.linalg.norm(residuals))
-    return bool(abs(slope @ residuals) > CORNER * size)
+def _left_out(fit: Estimate) -> tuple[float, Array]:
+    """Return the misfit of all cuts and of all but each one, in the same units."""
+    if fit.profile is not None:
+        return fit.profile.modes[0].misfit, without_each(fit.misfit, fit.profile.toughness)
+    weighted = fit.cuts.weight * fit.residuals
+    total = float(weighted @ weighted)
+    testable = np.maximum(1.0 - fit.leverage, 0.0)
+    fall = np.divide(weighted**2, testable, out=np.zeros_like(weighted), where=testable > 1e-6)
+    return total, np.maximum(total - fall, 0.0)
 
 
 def _shape(fit: Estimate) -> str:
@@ -240,124 +357,3 @@ def _shape(fit: Estimate) -> str:
 
 def _is_exact(fit: Estimate) -> bool:
     return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= _ROUNDING * np.max(fit.force))
-
-
-def _reduced_chi_squared_limit(dof: int) -> float:
-    """Value that chi^2/dof exceeds with probability FALSE_ALARM, after Wilson and Hilferty."""
-    z = normal_quantile(1.0 - 2.0 * FALSE_ALARM)
-    variance = 2.0 / (9.0 * dof)
-    return float((1.0 - variance + z * np.sqrt(variance)) ** 3)
-
-
-VAGUE = 3.0
-"""Ratio of an interval's ends from which its quantity counts as undecided."""
-
-
-def undecided(fit: Estimate) -> Iterator[str]:
-    """Yield one sentence for each question that the forces leave open.
-
-    Parameters
-    ----------
-    fit : Estimate
-        The identification to look at; without a `profile` there is nothing to say.
-
-    Yields
-    ------
-    str
-        What is not decided, with the numbers; last, the further wire that would tell most.
-    """
-    if fit.profile is None:
-        return
-    sentences = [
-        *_several(fit, fit.profile),
-        *_toughness_ends(fit, fit.profile),
-        *_wear_ends(fit, fit.profile),
-        *_wide(fit),
-    ]
-    yield from sentences
-    if sentences and fit.further_wire is not None:
-        yield wire_in_words(fit.further_wire)
-
-
-def wire_in_words(wire: FurtherWire) -> str:
-    """Return which further wire would tell most, and how clearly."""
-    low, high = wire.forces
-    kind = "both materials" if wire.modes else "the ends of the toughness's interval"
-    sentence = (
-        f"a wire of radius {1e3 * wire.wire_radius:.3g} mm would tell most: {low:.4g} N/m for "
-        f"Gamma_o = {wire.toughnesses[0]:.3g} J/m2, {high:.4g} N/m for {wire.toughnesses[1]:.3g} "
-        f"J/m2 ({kind}; searched from {1e3 * wire.searched[0]:.3g} to "
-        f"{1e3 * wire.searched[1]:.3g} mm)"
-    )
-    if np.isinf(wire.separation):
-        return sentence
-    if wire.separation >= 2.0:
-        return f"{sentence}, {wire.separation:.1f} standard errors of one cut apart"
-    if wire.cuts <= 1000:
-        return (
-            f"{sentence}, but only {wire.separation:.2g} standard errors of one cut apart: it "
-            f"takes the mean of {wire.cuts:.0f} cuts to tell them by two"
-        )
-    return f"{sentence}, but no wire in that range tells them apart with a thousand cuts"
-
-
-def _several(fit: Estimate, profile: Profile) -> Iterator[str]:
-    admitted = [mode for mode in profile.modes if mode.admitted]
-    if len(admitted) > 1:
-        listed = "; ".join(_mode_in_words(fit, mode) for mode in admitted)
-        yield f"{len(admitted)} materials fit the forces within the confidence asked for: {listed}"
-
-
-def _mode_in_words(fit: Estimate, mode: Mode) -> str:
-    misfit = "sum of squares" if fit.force_std is None else "chi^2"
-    return (
-        f"Gamma_o = {mode.toughness:.4g} J/m2 with tau_w = {1e-3 * mode.wear_strength:.4g} kPa "
-        f"({misfit} {mode.misfit:.3g})"
-    )
-
-
-def _toughness_ends(fit: Estimate, profile: Profile) -> Iterator[str]:
-    if not profile.toughness_intervals:
-        return
-    low, high = fit.toughness_interval
-    (first, last), (below, above) = profile.searched, profile.ends
-    if low == 0.0:
-        up_to = profile.toughness_intervals[0][1]
-        yield (
-            f"the forces set no lower limit to the toughness: anything up to {up_to:.3g} J/m2 fits"
-        )
-    elif below == "model" and low <= first:
-        yield (
-            f"the toughness may be smaller than {low:.3g} J/m2, where model '{fit.model}' ends for "
-            "the thickest wire"
-        )
-    if high >= last and above == "model":
-        yield (
-            f"the toughness may be larger than {high:.3g} J/m2, where model '{fit.model}' ends for "
-            "the thinnest wire"
-        )
-    elif high >= last and above == "bound":
-        yield f"it is the bound of {high:.4g} J/m2, not the forces, that limits the toughness above"
-
-
-def _wear_ends(fit: Estimate, profile: Profile) -> Iterator[str]:
-    low, high = fit.wear_strength_interval
-    if fit.known.wear_strength is not None:
-        return
-    if low == 0.0:
-        up_to = 1e-3 * profile.wear_strength_intervals[0][1]
-        yield f"whether the solid wears at all: any tau_w up to {up_to:.3g} kPa fits"
-    if np.isinf(high):
-        yield "the forces set no upper limit to the wear strength"
-
-
-def _wide(fit: Estimate) -> Iterator[str]:
-    for name, scale, unit, (low, high) in (
-        ("toughness", 1.0, "J/m2", fit.toughness_interval),
-        ("wear strength", 1e-3, "kPa", fit.wear_strength_interval),
-    ):
-        if VAGUE * low < high < np.inf and low > 0.0:
-            yield (
-                f"the {name} is only known to be between {scale * low:.3g} and "
-                f"{scale * high:.3g} {unit}"
-            )

@@ -67,6 +67,7 @@ class Estimate:
     model_error: tuple[float, float] | None = None
     contributions: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     scale: float | None = None
+    friction_sensitivity: tuple[float, float] = (np.nan, np.nan)
     shear_modulus_std: float = 0.0
     friction_std: float = 0.0
     stiffening_std: float = 0.0
@@ -193,7 +194,9 @@ class Estimate:
 
     @property
     def dimensionless_toughness(self) -> Array:
-        """g = Gamma_o/(mu R_w) of each wire [-], shape (n,)."""
+        """g = Gamma_o/(mu R_w) of each wire [-], shape (n,); nan where mu is not known."""
+        if "shear_modulus" in self.assumed:
+            return np.full_like(self.wire_radius, np.nan)
         return self.toughness / (self.shear_modulus * self.wire_radius)
 
     @property

@@ -12,8 +12,9 @@ from surrogate.basics.checks import LARGEST, Quantity, one_number
 from surrogate.basics.records import html_table, number
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.identification.doubts import fit_warnings, undecided
+from surrogate.identification.doubts import fit_warnings
 from surrogate.identification.estimate import Estimate
+from surrogate.identification.open_questions import undecided
 from surrogate.identification.profile_fit import fit_profile
 from surrogate.inference.inputs import (
     NOTHING_KNOWN,

@@ -19,6 +19,12 @@ Array = NDArray[np.float64]
 BEYOND = 5.0
 """Factor by which a further wire may be thinner or thicker than those of the cuts."""
 
+SOLD = (10e-6, 1e-3)
+"""Radii of wires that can be bought and held [m]: from 20 um to 2 mm across."""
+
+STEEL_STRENGTH = 2e9
+"""Breaking stress of drawn steel wire [Pa]; EN 10270-1 has 1.8 to 3 GPa below 1 mm."""
+
 CANDIDATES = 401
 
 
@@ -51,6 +57,12 @@ class FurtherWire:
     modes: bool
 
     @property
+    def breaking_force(self) -> float:
+        """Force at which a steel wire of this radius breaks [N]; hold it beside the force times
+        the width of the sample."""
+        return STEEL_STRENGTH * float(np.pi) * self.wire_radius**2
+
+    @property
     def cuts(self) -> float:
         """Cuts with it whose mean tells the two apart by two standard errors."""
         if self.separation < 1e-9:
@@ -61,14 +73,20 @@ class FurtherWire:
 def range_of_wires(cuts: Cuts) -> tuple[float, float]:
     """Return the radii [m] from a fifth of the thinnest to five times the thickest wire.
 
+    As far as such wires are sold, from 20 um to 2 mm across, and as far as those of the cuts.
+
     Examples
     --------
     >>> wires = np.array([1e-4, 4e-4])
     >>> low, high = range_of_wires(Cuts(wires, wires, None, 1.0, 0.0, 2.0))
     >>> print(f"{low:.1e} {high:.1e}")
-    2.0e-05 2.0e-03
+    2.0e-05 1.0e-03
     """
-    return float(cuts.wire_radius.min()) / BEYOND, float(cuts.wire_radius.max()) * BEYOND
+    thinnest, thickest = float(cuts.wire_radius.min()), float(cuts.wire_radius.max())
+    return (
+        min(thinnest, max(thinnest / BEYOND, SOLD[0])),
+        max(thickest, min(thickest * BEYOND, SOLD[1])),
+    )
 
 
 def forces_of(
@@ -117,8 +135,13 @@ def further_wire(
     model, cuts, tau = misfit.model, misfit.cuts, misfit.at(gamma).wear_strength
     radius = np.geomspace(*searched, CANDIDATES)
     radius[0], radius[-1] = searched
-    g = gamma[:, np.newaxis] / (cuts.shear_modulus * radius)
-    radius = radius[np.all((g >= model.g.lower) & (g <= model.g.upper), axis=0)]
+    # every toughness that is admitted, not only those compared, stays within the model's range
+    ends = profile.admitted[0, [0, -1]] if profile.admitted.size else gamma[[0, -1]]
+    g = ends[:, np.newaxis] / (cuts.shear_modulus * radius)
+    inside = np.all((g >= model.g.lower) & (g <= model.g.upper), axis=0)
+    if not np.any(inside):  # as where nothing bounds the toughness below
+        inside = g[-1] <= model.g.upper
+    radius = radius[inside]
     if not radius.size:
         return None
     forces = forces_of(model, cuts, gamma, tau, radius)

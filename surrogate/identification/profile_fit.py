@@ -20,8 +20,8 @@ from surrogate.inference.quantiles import normal_quantile, student_quantile
 
 __all__ = ["fit_profile", "linearised"]
 
-LEAST_SCATTER = 1e-9
-"""Of the largest force; forces that are met better are as good as exact."""
+LEAST_SCATTER = 1e-4
+"""Of the largest force; no forces are measured more exactly."""
 
 
 def fit_profile(
@@ -135,7 +135,7 @@ def linearised(
     free = slice(0, 1 if known.wear_strength is not None else 2)
     if not np.all(np.isfinite(design)) or not np.all(np.any(design[:, free], axis=0)):
         nothing = np.full((2, 2), np.nan)
-        return _named(nothing, weight * np.nan, np.nan, {})
+        return _named(nothing, weight * np.nan, np.nan, {}, np.full(2, np.nan))
     plain = solve_least_squares(design[:, free], design[:, 0])
     factors: dict[str, Array] = {}
     if misfit.scale is not None:
@@ -149,9 +149,12 @@ def linearised(
         std = np.zeros(2)
         std[free] = scale * part
         contributions[name] = (float(std[0]), float(std[1]))
+    load = misfit.friction_slopes(at)[0] * weight
+    shift = np.zeros(2)
+    shift[free] = -np.linalg.lstsq(design[: weight.size, free], load, rcond=None)[0]
     covariance = np.zeros((2, 2))
     covariance[free, free] = scale**2 * fit.covariance
-    return _named(covariance, plain.leverage[: weight.size], plain.condition, contributions)
+    return _named(covariance, plain.leverage[: weight.size], plain.condition, contributions, shift)
 
 
 def _named(
@@ -159,6 +162,7 @@ def _named(
     leverage: Array,
     condition: float,
     contributions: dict[str, tuple[float, float]],
+    shift: Array,
 ) -> dict[str, Any]:
     return {
         "covariance": covariance,
@@ -166,4 +170,5 @@ def _named(
         "condition": condition,
         "contributions": contributions,
         "model_error": contributions.get("model"),
+        "friction_sensitivity": (float(shift[0]), float(shift[1])),
     }

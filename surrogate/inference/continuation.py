@@ -111,7 +111,8 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
             rate = np.maximum(np.where(below, *rates), bound)
             drift = np.where(below | above, np.minimum(beyond, FARTHEST) * rate, 0.0)
         drifts.append(np.minimum(drift, LARGEST_ERROR) / np.sqrt(3.0))
-    return ContactError(near[0] / np.sqrt(3.0), near[1] / np.sqrt(3.0), *drifts, below, above)
+    arc, load = (bound / np.sqrt(3.0) for bound in near)
+    return ContactError(arc, load, drifts[0], drifts[1], below, above)
 
 
 @lru_cache(maxsize=64)

@@ -155,8 +155,9 @@ def series_of_cuts(
         one_number(FRICTION_COEFFICIENT, friction),
         one_number(checks.STIFFENING_EXPONENT, exponent),
     )
-    errors = (one_number(quantity, std) for quantity, std in zip(_STDS, stds, strict=True))
-    return Cuts(radius, forces, std, *values, *errors, _sample(sample, forces.size))
+    mu_std, xi_std, alpha_std = map(one_number, _STDS, stds)
+    numbers = _sample(sample, forces.size)
+    return Cuts(radius, forces, std, *values, mu_std, xi_std, alpha_std, numbers)
 
 
 def _std(name: str, unit: str) -> Quantity:

@@ -113,10 +113,10 @@ def solve_with_shared(
     >>> print(np.round([parts["scatter"][0], parts["all"][0]], 6))
     [0.5 1. ]
     """
-    inverse = np.eye(len(values))
+    inverse: Array = np.eye(len(values))
     if factors:
         both = np.hstack(list(factors.values()))
-        inverse = np.linalg.inv(inverse + both @ both.T)
+        inverse = np.asarray(np.linalg.inv(inverse + both @ both.T), dtype=float)
     white = np.linalg.cholesky(inverse).T
     fit = solve_least_squares(white @ design, white @ values)
     estimator = fit.covariance @ design.T @ inverse
@@ -210,7 +210,17 @@ def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
         "leverage": plain.leverage,
         "contributions": {name: (float(a), float(b)) for name, (a, b) in contributions.items()},
         "model_error": None,
+        "friction_sensitivity": _friction_sensitivity(cuts, model, fit.estimate),
     }
+
+
+def _friction_sensitivity(cuts: Cuts, model: str, estimate: Array) -> tuple[float, float]:
+    """Return d(estimates)/dxi: (1 + c xi) Gamma_o and tau_w + d xi mu stay as they are."""
+    chosen = force_model(model)
+    assert isinstance(chosen, ClosedForm)
+    growth = chosen.load_2_slope
+    gamma = -growth * float(estimate[0]) / (1.0 + growth * cuts.friction_coefficient)
+    return gamma, -chosen.load_2 / chosen.arc_2 * cuts.shear_modulus
 
 
 def _scale(cuts: Cuts, misfit: float, dof: int) -> float:
@@ -250,8 +260,8 @@ def _misfit(design: Array, values: Array, factors: dict[str, Array]) -> float:
     """Return the least r' (1 + sum of K K')^-1 r."""
     fit, _ = solve_with_shared(design, values, factors)
     residuals = values - design @ fit.estimate
-    inverse = np.eye(len(values))
+    inverse: Array = np.eye(len(values))
     if factors:
         both = np.hstack(list(factors.values()))
-        inverse = np.linalg.inv(inverse + both @ both.T)
+        inverse = np.asarray(np.linalg.inv(inverse + both @ both.T), dtype=float)
     return float(residuals @ inverse @ residuals)

@@ -101,7 +101,7 @@ class Misfit:
     def _root(self) -> Array:
         """A square root of the correlation of the model's errors over the different wires."""
         radii = self._radii[0]
-        return np.linalg.cholesky(correlation(radii) + 1e-12 * np.eye(radii.size))
+        return np.asarray(np.linalg.cholesky(correlation(radii) + 1e-12 * np.eye(radii.size)))
 
     def at(self, toughness: Array) -> Profiled:
         """Return the best wear strengths at toughnesses [J/m2] of shape (m,)."""
@@ -109,16 +109,6 @@ class Misfit:
         target = self.cuts.force - base
         weighted = self._weighted(toughness, target, base, arc)
         return self._best(toughness, target, arc, *weighted)
-
-    def without_each(self, toughness: Array) -> Array:
-        """Return the smallest misfits over toughnesses with each cut left out in turn, (n,)."""
-        smallest = []
-        for i in range(self.cuts.force.size):
-            weight = self.cuts.weight.copy()
-            weight[i] = 0.0
-            less = replace(self, cuts=replace(self.cuts, weights=weight))
-            smallest.append(float(less.at(toughness).misfit.min()))
-        return np.array(smallest)
 
     def _best(
         self, toughness: Array, target: Array, arc: Array, of_target: Array, of_arc: Array
@@ -193,9 +183,8 @@ class Misfit:
             if std > 0.0:
                 yield name, self._secant(toughness, wear, name, std)
         if cuts.friction_std > 0.0:
-            load = self._per_cut(self._load(self._g(toughness)))
-            stress = cuts.shear_modulus * cuts.friction_std * load
-            yield "friction_coefficient", (2.0 * cuts.wire_radius * stress)[:, :, np.newaxis]
+            slopes = self.friction_slopes(toughness)
+            yield "friction_coefficient", (cuts.friction_std * slopes)[:, :, np.newaxis]
 
     def _secant(self, toughness: Array, wear: Array, name: str, std: float) -> Array:
         """Return half the change of the forces over two standard errors of mu or alpha."""
@@ -265,6 +254,11 @@ class Misfit:
             if xi:
                 slope += 2.0 * xi * self.model.normal_load_slopes(g, alpha)[0]
         return self._per_cut(slope)
+
+    def friction_slopes(self, toughness: Array) -> Array:
+        """Return dF/dxi = 2 R_w mu B of each cut [N/m], shape (m, n)."""
+        load = self._per_cut(self._load(self._g(toughness)))
+        return np.asarray(2.0 * self.cuts.wire_radius * self.cuts.shear_modulus * load)
 
     def arcs(self, toughness: Array) -> Array:
         """Return dF/dtau_w = 2 R_w A of each cut [m], shape (m, n)."""

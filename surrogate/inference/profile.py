@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from surrogate.basics.roots import narrowed
 from surrogate.errors import DomainError, InputError
 from surrogate.inference.misfit import Misfit
 
-__all__ = ["Mode", "Profile", "profile_misfit", "smallest_misfit"]
+__all__ = ["Mode", "Profile", "profile_misfit", "smallest_misfit", "without_each"]
 
 Array = NDArray[np.float64]
 Interval = tuple[float, float]
@@ -36,7 +36,7 @@ ROUNDING = 1e3 * np.finfo(float).eps
 SHARED_RTOL = 1e-7
 """Of toughnesses where errors are shared, far below what any force tells."""
 
-ZOOMS = 6
+ZOOMS = 5
 """Each finer by about a factor of eight, to the square root of rounding."""
 
 INSIDE = 64
@@ -190,13 +190,43 @@ def smallest_misfit(misfit: Misfit) -> float:
         As `profile_misfit`.
     """
     lowest, highest, _ = _limits(misfit)
-    gamma = _nodes(misfit, lowest, min(max(float(misfit.cuts.force.max()), lowest), highest))
+    first = max(float(misfit.cuts.force.max()), lowest)
+    return _lowest(misfit, _nodes(misfit, lowest, min(first, highest)))
+
+
+def without_each(misfit: Misfit, toughness: Array) -> Array:
+    """Return the smallest misfits with each cut left out in turn, near toughnesses of a scan.
+
+    Parameters
+    ----------
+    misfit : Misfit
+        The misfit of all cuts.
+    toughness : ndarray, shape (m,)
+        Where to look [J/m2].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        As the misfit.
+    """
+    weight = misfit.cuts.weight
+    left_out = (np.where(np.arange(weight.size) == i, 0.0, weight) for i in range(weight.size))
+    return np.array(
+        [
+            _lowest(replace(misfit, cuts=replace(misfit.cuts, weights=w)), toughness)
+            for w in left_out
+        ]
+    )
+
+
+def _lowest(misfit: Misfit, gamma: Array) -> float:
+    smallest = np.inf
     for _ in range(ZOOMS):
         heights = misfit.at(gamma).misfit
         best = int(np.argmin(heights))
-        ends = gamma[max(best - 1, 0)], gamma[min(best + 1, gamma.size - 1)]
-        gamma = np.append(np.linspace(*ends, 17), gamma[best])
-    return float(misfit.at(gamma).misfit.min())
+        smallest = min(smallest, float(heights[best]))
+        gamma = np.linspace(gamma[max(best - 1, 0)], gamma[min(best + 1, gamma.size - 1)], 17)
+    return smallest
 
 
 def _limits(misfit: Misfit) -> tuple[float, float, tuple[str, str]]:

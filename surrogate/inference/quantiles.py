@@ -7,7 +7,7 @@ from statistics import NormalDist
 
 import numpy as np
 
-__all__ = ["normal_quantile", "student_quantile"]
+__all__ = ["chi_squared_limit", "exceeds_f", "normal_quantile", "student_quantile"]
 
 _LARGEST_SUMMED = 1000
 """Degrees of freedom up to which the finite sum is used; a series in 1/dof above."""
@@ -93,3 +93,50 @@ def _student_far(z: float, dof: int) -> float:
     second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
     third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0
     return z + first / dof + second / dof**2 + third / dof**3
+
+
+def chi_squared_limit(dof: int, probability: float) -> float:
+    """Value that chi^2/dof exceeds with a probability, after Wilson and Hilferty.
+
+    Parameters
+    ----------
+    dof : int
+        Degrees of freedom.
+    probability : float
+        Of exceeding it [-].
+
+    Examples
+    --------
+    >>> print(f"{chi_squared_limit(4, 0.01):.2f}")
+    3.32
+    """
+    z = normal_quantile(1.0 - 2.0 * probability)
+    variance = 2.0 / (9.0 * dof)
+    return float((1.0 - variance + z * np.sqrt(variance)) ** 3)
+
+
+def exceeds_f(ratio: float, dofs: tuple[int, int], probability: float) -> bool:
+    """Whether a ratio of variances is above what F exceeds with a probability, after Paulson.
+
+    Parameters
+    ----------
+    ratio : float
+        Of the variances [-].
+    dofs : tuple of int
+        Degrees of freedom above and below.
+    probability : float
+        Of exceeding it [-].
+
+    References
+    ----------
+    E. Paulson, Annals of Mathematical Statistics 13 (1942) 233.
+
+    Examples
+    --------
+    >>> exceeds_f(4.0, (3, 20), 0.01), exceeds_f(6.0, (3, 20), 0.01)
+    (False, True)
+    """
+    above, below = (2.0 / (9.0 * dof) for dof in dofs)
+    root = ratio ** (1.0 / 3.0)
+    z = ((1.0 - below) * root - (1.0 - above)) / math.sqrt(below * root**2 + above)
+    return bool(z > normal_quantile(1.0 - 2.0 * probability))

@@ -10,6 +10,7 @@ the fit. Where samples are named, the scatter between them is estimated as well.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 __all__ = ["Scatter", "scatter_of_repeats"]
 
 Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
 
 FEWEST_REPEATS = 3
 """Differences within wires from which the shape of the scatter can be chosen."""
@@ -76,7 +78,9 @@ class Scatter:
         return f"{self.kind}, {size} (from {self.dof} differences between repeated cuts)"
 
 
-def scatter_of_repeats(radius: Array, force: Array, sample: Array | None = None) -> Scatter | None:
+def scatter_of_repeats(
+    radius: Array, force: Array, sample: Numbers | None = None
+) -> Scatter | None:
     """Return what cuts of the same radius say, or None where too few are repeated.
 
     Parameters
@@ -131,7 +135,7 @@ def _relative_variance(share: float, mean: Array) -> Array:
     return (1.0 - share) + share * (mean / _mean_square_root(mean)) ** 2
 
 
-def _best_share(mean: Array, squares: Array, dofs: Array, dof: int) -> tuple[float, float]:
+def _best_share(mean: Array, squares: Any, dofs: Any, dof: int) -> tuple[float, float]:
     """Return the share of the proportional part, 0 or 1 unless both are clearly there."""
     fits = []
     for share in SHARES.tolist():
@@ -143,7 +147,7 @@ def _best_share(mean: Array, squares: Array, dofs: Array, dof: int) -> tuple[flo
     return share, variance
 
 
-def _between_samples(places: Array, values: Array, weights: Array, sample: Array) -> float:
+def _between_samples(places: Any, values: Array, weights: Array, sample: Numbers) -> float:
     """Return the standard deviation between samples over that within, by residual likelihood.
 
     Wires have any means, so that only samples that several wires share, or wires that several
