@@ -16,6 +16,7 @@ from surrogate.identification.doubts import fit_warnings
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.open_questions import undecided
 from surrogate.identification.profile_fit import fit_profile
+from surrogate.identification.summary import answer, summary
 from surrogate.inference.inputs import (
     NOTHING_KNOWN,
     Array,
@@ -34,7 +35,7 @@ CONFIDENCE = Quantity(
 )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Identification(Estimate):
     """What a series of wire cuts says about a material; see `identify`.
 
@@ -76,18 +77,37 @@ class Identification(Estimate):
     further_wire : FurtherWire or None
         The wire that would tell most about what `undecided` names; None without `profile`.
     model_error : tuple of float, or None
-        How far the measured error bounds of a fitted model's A and B can move Gamma_o [J/m2] and
-        tau_w [Pa] at most, to first order; None for closed forms, whose errors nobody states.
+        Standard errors that the measured error bounds of a fitted model's A and B bring to
+        Gamma_o [J/m2] and tau_w [Pa]; part of the intervals. None for closed forms, whose errors
+        nobody states.
+    contributions : mapping of str to tuple of float
+        Standard errors of Gamma_o [J/m2] and tau_w [Pa] that each source brings: "scatter",
+        "model", "shear_modulus", "friction_coefficient", "stiffening_exponent", "sample".
+    scale : float or None
+        Standard error of a force of weight 1 [N/m] that was set against what forces share.
+    friction_sensitivity : tuple of float
+        dGamma_o/dxi [J/m2] and dtau_w/dxi [Pa], to first order.
+    shear_modulus_std, friction_std, stiffening_std : float
+        Their standard errors, as given [Pa], [-], [-].
+    sample : ndarray of int, or None
+        Number of the sample of each cut.
+    scatter : Scatter or None
+        What repeated cuts say about the scatter of forces, where `force_std` was not given.
+    assumed : tuple of str
+        Names of what nobody gave: "friction_coefficient" of 0, "stiffening_exponent" of 2, or
+        "shear_modulus", which plays no part then.
 
     Notes
     -----
-    Standard errors and intervals are those of the forces' scatter; `model_error` comes on top.
+    Standard errors and intervals contain the forces' scatter, the model's own error and what was
+    given as uncertain: mu, xi, alpha. `contributions` says how much each adds. Where the end of a
+    model, a bound, the search or 0 holds an estimate or an end of an interval,
+    `toughness_limited_by` and `wear_strength_limited_by` say so, and the standard error is nan.
 
     With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
     errors and covariance are those of the force's derivatives at the estimate.
 
-    Standard errors of lengths come from the covariance by first-order propagation, with mu and xi
-    taken as exact. They hold where the standard error of tau_w is small beside tau_w.
+    Standard errors of lengths come from the covariance by first-order propagation. They hold where the standard error of tau_w is small beside tau_w.
 
     References
     ----------
@@ -110,6 +130,18 @@ class Identification(Estimate):
     def undecided(self) -> tuple[str, ...]:
         """What the forces do not decide, and which further wire would, in words."""
         return tuple(undecided(self))
+
+    def summary(self) -> str:
+        """Return the answer, the doubts and what both rest on, in at most 25 lines."""
+        return summary(self)
+
+    def __str__(self) -> str:
+        """The same: what `print` shows."""
+        return self.summary()
+
+    def __repr__(self) -> str:
+        """One line, without the arrays."""
+        return f"<Identification: {answer(self)}>"
 
     def _repr_html_(self) -> str:
         """What notebooks show."""
@@ -176,15 +208,21 @@ def identify(
         quantiles and the covariance is NOT rescaled by chi^2/dof, which is reported instead.
         Not given, every force weighs the same, the residuals' variance sets the scale and
         intervals use Student's t.
+    relative_error : float, optional
+        Standard error of each force over the force [-], instead of `force_std`.
     wire_diameter : array_like, shape (n,), optional
         2 R_w [m], instead of `wire_radius`.
+    sample : array_like, shape (n,), optional
+        Name of the sample that each cut was made in; the scatter between samples is estimated.
+    shear_modulus_std, friction_std, stiffening_std : float, default 0
+        Standard errors of mu [Pa], xi [-] and alpha [-], which become part of the intervals.
     model : str, default "auto"
         Any force model that has wear, see `models`. "auto" is one model for all toughnesses: the
         cheapest whose A and B meet `rtol` all over its domain. "eq13", "low-toughness" (Eq. 12)
         and "friction-free" (Eq. 15) are linear in both unknowns.
     rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-]. What it may do to the estimates is
-        said by `model_error`; the intervals do not contain it.
+        Relative error of A and B that will do with "auto" [-]. What that of the model may do to
+        the estimates is said by `model_error` and is part of the intervals.
     confidence : float, default 0.95
         Probability that each interval states, of each estimate by itself [-].
     toughness_max : float, optional
@@ -226,8 +264,9 @@ def identify(
     the order of the curvature where it is not. Near the limits Gamma_o = 0 and tau_w = 0 they hold
     the truth at least about as often as stated.
 
-    Range of validity: that of the force model; a fitted one is not continued beyond its domain, so
-    that it ends the search. Eq. (13) takes its wear term from Eq. (11), which
+    Range of validity: that of the force model. A fitted one is continued by its asymptotes for
+    wires beyond its domain, with an error that grows with ln g and is part of the intervals, and a
+    warning names these wires. Eq. (13) takes its wear term from Eq. (11), which
     the paper found for g <= 1; beyond it a warning is given. A negative estimate is reported as it
     is.
 

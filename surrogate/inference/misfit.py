@@ -281,7 +281,8 @@ class Misfit:
         return values[:, self._radii[1]]
 
     def _load(self, g: Array) -> Array:
-        return np.asarray(self.model.normal_load(g, self.cuts.stiffening_exponent))
+        load = self.model.normal_load(g, self.cuts.stiffening_exponent)
+        return np.asarray(np.broadcast_to(load, g.shape))
 
     def _parts(self, toughness: Array) -> tuple[Array, Array]:
         """Return Gamma_o and friction, and 2 R_w A, of each cut; A and B only where needed."""

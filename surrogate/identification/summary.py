@@ -1,0 +1,177 @@
+"""An identification in a few lines: the answer first, with no more digits than it has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from textwrap import wrap
+
+import numpy as np
+
+from surrogate.basics.records import UNKNOWN, number
+from surrogate.identification.doubts import fit_warnings
+from surrogate.identification.estimate import Estimate
+from surrogate.identification.open_questions import undecided
+
+__all__ = ["MOST_LINES", "answer", "assumptions", "budget", "rounded", "summary"]
+
+MOST_LINES = 25
+WIDTH = 96
+
+SOURCES = {
+    "scatter": "scatter",
+    "model": "model",
+    "shear_modulus": "mu",
+    "friction_coefficient": "xi",
+    "stiffening_exponent": "alpha",
+    "sample": "samples",
+}
+
+
+def rounded(value: float, error: float) -> str:
+    """Return a number with as many digits as its error leaves, two of the error itself.
+
+    Examples
+    --------
+    >>> rounded(1.14632, 0.34), rounded(12634.0, 420.0), rounded(1.14632, math.nan)
+    ('1.15', '12630', '1.146')
+    """
+    if not math.isfinite(value):
+        return "any" if value > 0.0 else UNKNOWN
+    if not math.isfinite(error) or not error > 0.0:
+        return number(value)
+    decimals = 1 - math.floor(math.log10(error))
+    if not -6 <= decimals <= 6:
+        return number(value)
+    if decimals <= 0:
+        return f"{round(value, decimals):.0f}"
+    return f"{value:.{decimals}f}"
+
+
+def answer(fit: Estimate) -> str:
+    """Return what goes into a paper.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> print(answer(identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], model="eq13")))
+    Gamma_o = 1.63 (1.08 to 2.17) J/m2, tau_w = 7.75 (7.35 to 8.15) kPa, 95 %, 4 wires, model eq13
+    """
+    wires = np.unique(fit.wire_radius).size
+    count = f"{wires} wire{'s' if wires > 1 else ''}"
+    if fit.force.size > wires:
+        count += f", {fit.force.size} cuts"
+    about = f"{100.0 * fit.confidence:.4g} %, {count}, model {fit.model}"
+    admitted = [mode for mode in fit.profile.modes if mode.admitted] if fit.profile else []
+    if len(admitted) > 1:
+        several = "; or ".join(
+            f"Gamma_o = {number(mode.toughness, 3)} J/m2 with tau_w = "
+            f"{number(1e-3 * mode.wear_strength, 3)} kPa"
+            for mode in admitted
+        )
+        ranges = ", ".join(_quantities(fit))
+        return f"{len(admitted)} materials fit: {several} (all that fits: {ranges}), {about}"
+    return f"{', '.join(_quantities(fit))}, {about}"
+
+
+def _quantities(fit: Estimate) -> Iterator[str]:
+    several = fit.profile is not None and sum(mode.admitted for mode in fit.profile.modes) > 1
+    for symbol, unit, scale, value, interval, limits in (
+        ("Gamma_o", "J/m2", 1.0, fit.toughness, fit.toughness_interval, fit.toughness_limited_by),
+        (
+            "tau_w",
+            "kPa",
+            1e-3,
+            fit.wear_strength,
+            fit.wear_strength_interval,
+            fit.wear_strength_limited_by,
+        ),
+    ):
+        low, high = (scale * end for end in interval)
+        yield f"{symbol} {_range(scale * value, low, high, limits, several)} {unit}"
+
+
+def _range(value: float, low: float, high: float, limits: tuple[str, str], several: bool) -> str:
+    """Return a value with its interval, or the one end that the forces decide."""
+    below, above = (limit == "forces" for limit in limits)
+    error = 0.5 * (high - low) if math.isfinite(high - low) else 0.5 * (value - low)
+    if "given" in limits:
+        return f"= {number(value)} (given)"
+    if "unknown" in limits:
+        return f"= {number(value)} (interval unknown)"
+    if not below and low <= 0.0:
+        return f"< {rounded(high, error)}" if above or math.isfinite(high) else "is undecided:"
+    if not above and not math.isfinite(high):
+        return f"> {rounded(low, error)}"
+    ends = f"{rounded(low, error)} to {rounded(high, error)}"
+    if not above:
+        ends += f", {limits[1]}"
+    return ends if several else f"= {rounded(value, error)} ({ends})"
+
+
+def assumptions(fit: Estimate) -> str:
+    """Return what was given and what was assumed, with what the friction would change."""
+    xi = "friction_coefficient" in fit.assumed
+    parts = []
+    if "shear_modulus" not in fit.assumed:
+        parts.append(f"mu = {number(fit.shear_modulus)}{_plus(fit.shear_modulus_std)} Pa")
+    parts.append(
+        f"xi = {number(fit.friction_coefficient)}{_plus(fit.friction_std)}"
+        + (" (assumed)" if xi else "")
+    )
+    alpha = " (assumed)" if "stiffening_exponent" in fit.assumed else ""
+    parts.append(f"alpha = {number(fit.stiffening_exponent)}{_plus(fit.stiffening_std)}{alpha}")
+    gamma, tau = fit.friction_sensitivity
+    sentence = f"With {', '.join(parts)}"
+    if xi and math.isfinite(gamma) and "shear_modulus" not in fit.assumed:
+        sentence += (
+            f"; friction of xi = 0.1 would change Gamma_o by {0.1 * gamma:+.2g} J/m2 and tau_w by "
+            f"{1e-4 * tau:+.2g} kPa"
+        )
+    return f"{sentence}."
+
+
+def _plus(std: float) -> str:
+    return f" +- {number(std, 2)}" if std > 0.0 else ""
+
+
+def budget(fit: Estimate) -> str:
+    """Return how much each source of error adds to the standard errors; empty where unknown."""
+    parts = [
+        f"{SOURCES[name]} {number(gamma, 2)} J/m2 and {number(1e-3 * tau, 2)} kPa"
+        for name, (gamma, tau) in fit.contributions.items()
+        if math.isfinite(gamma)
+    ]
+    if not parts or fit.at_limit:
+        return ""
+    return f"Standard errors come from: {'; '.join(parts)}."
+
+
+def summary(fit: Estimate, lines: int = MOST_LINES) -> str:
+    """Return the answer, then doubts, then what it rests on, in at most so many lines."""
+    blocks = [_wrapped(f"{answer(fit)}.")]
+    blocks += [_wrapped(f"Warning: {sentence}.") for sentence in fit_warnings(fit)]
+    blocks += [_wrapped(f"Undecided: {sentence}.") for sentence in undecided(fit)]
+    last = [_wrapped(assumptions(fit)), _wrapped(budget(fit))]
+    if fit.scatter is not None:
+        last.insert(0, _wrapped(f"Scatter of a cut: {fit.scatter.words}."))
+    return "\n".join(_fitting(blocks, [block for block in last if block], lines))
+
+
+def _fitting(blocks: list[list[str]], last: list[list[str]], most: int) -> list[str]:
+    """Return as many blocks as the lines allow, before the last ones."""
+    room = most - sum(map(len, last)) - 1
+    shown: list[str] = []
+    left = 0
+    for block in blocks:
+        if left or len(shown) + len(block) > room:
+            left += 1
+        else:
+            shown += block
+    if left:
+        shown.append(f"... and {left} more remarks, which --verbose or fit.warnings tell.")
+    return [*shown, *(line for block in last for line in block)]
+
+
+def _wrapped(sentence: str) -> list[str]:
+    return wrap(sentence, WIDTH, subsequent_indent="  ")
