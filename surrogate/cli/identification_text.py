@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from textwrap import fill
 from typing import Any
@@ -15,8 +15,10 @@ from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.fit import Identification
 from surrogate.identification.open_questions import wire_in_words
+from surrogate.identification.summary import answer, brief, rests_on
 from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
+from surrogate.version import __version__
 
 __all__ = ["identification_record", "identification_text", "profile_record", "profile_text"]
 
@@ -40,7 +42,6 @@ def profile_record(fit: Identification) -> dict[str, Any]:
         "misfit": "sum of squares" if fit.force_std is None else "chi^2",
         "toughness_intervals": fit.profile.toughness_intervals,
         "wear_strength_intervals": fit.profile.wear_strength_intervals,
-        "known": asdict(fit.known),
         "undecided": [sentence for sentence in fit.undecided if sentence != words],
         "further_wire": None if wire is None else asdict(wire) | {"cuts": wire.cuts},
         "further_wire_words": words,
@@ -103,11 +104,21 @@ NO_SCATTER = "no scatter"
 def identification_record(fit: Identification, material: Material) -> Record:
     """Return estimates, lengths, transition radii, wires and warnings of an identification."""
     lengths = _lengths(fit, material)
+    alternatives = alternatives_record(fit, material)
     return {
+        "answer": answer(fit),
+        "rests_on": rests_on(fit),
         "model": fit.model,
         "friction_coefficient": fit.friction_coefficient,
         "shear_modulus": fit.shear_modulus,
-        "shear_modulus_std": material.shear_modulus_std,
+        "shear_modulus_std": fit.shear_modulus_std or None,
+        "friction_std": fit.friction_std,
+        "stiffening_exponent": fit.stiffening_exponent,
+        "stiffening_std": fit.stiffening_std,
+        "assumed": list(fit.assumed),
+        "known": _known(fit),
+        "scatter": _scatter(fit),
+        "version": __version__,
         "pure_shear_toughness": material.pure_shear_toughness,
         "pure_shear_toughness_std": material.pure_shear_toughness_std,
         "work_of_fracture": material.work_of_fracture,
@@ -116,9 +127,13 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "toughness": fit.toughness,
         "toughness_std": fit.toughness_std,
         "toughness_interval": fit.toughness_interval,
+        "toughness_limited_by": fit.toughness_limited_by,
         "wear_strength": fit.wear_strength,
         "wear_strength_std": fit.wear_strength_std,
         "wear_strength_interval": fit.wear_strength_interval,
+        "wear_strength_limited_by": fit.wear_strength_limited_by,
+        "contributions": dict(fit.contributions),
+        "friction_sensitivity": fit.friction_sensitivity,
         "covariance": fit.covariance.tolist(),
         "correlation": fit.correlation,
         "r_squared": fit.r_squared,
@@ -126,11 +141,41 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "lengths": lengths,
         "transition_radii": _transition_radii(fit, material, lengths),
         "wires": _identified_wires(fit),
-        "warnings": list(fit.warnings),
+        "warnings": [*_beside_pure_shear(fit, material), *fit.warnings],
         "model_error": fit.model_error,
         **profile_record(fit),
-        **alternatives_record(fit, material),
+        **alternatives,
     }
+
+
+def _known(fit: Identification) -> Record:
+    """Return the facts besides the forces; None where nothing bounds the toughness."""
+    bound = fit.known.toughness_max
+    return asdict(fit.known) | {"toughness_max": bound if math.isfinite(bound) else None}
+
+
+def _scatter(fit: Identification) -> Record | None:
+    if fit.scatter is None:
+        return None
+    return {
+        name: getattr(fit.scatter, name)
+        for name in ("kind", "constant", "proportional", "dof", "sample_ratio", "words")
+    }
+
+
+FAR_ABOVE = 2.0
+"""Times the toughness of pure shear that Gamma_o, a part of it, cannot be."""
+
+
+def _beside_pure_shear(fit: Identification, material: Material) -> Iterator[str]:
+    gamma = material.pure_shear_toughness
+    low = fit.toughness_interval[0]
+    if gamma and not math.isnan(low) and low > FAR_ABOVE * gamma:
+        yield (
+            f"the toughness is at least {number(low, digits=3)} J/m2, far above the toughness of "
+            f"pure shear ({number(gamma)} J/m2), of which it is a part: check the units of forces, "
+            "radii and modulus"
+        )
 
 
 def _lengths(fit: Identification, material: Material) -> Record:
@@ -190,7 +235,7 @@ def _length(definition: str, value: float, std: float | None) -> Record:
 
 def _identified_wires(fit: Identification) -> list[Record]:
     regime: dict[str, Any] = {}
-    if fit.is_physical:
+    if fit.is_physical and "shear_modulus" not in fit.assumed:
         classes = classify(fit.scene(fit.wire_radius), model=fit.model)
         regime = {"dominant": classes.dominant, "contact": classes.contact}
     return wire_rows(
@@ -203,14 +248,29 @@ def _identified_wires(fit: Identification) -> list[Record]:
 
 
 def identification_text(record: Record) -> str:
-    """Return what `identification_record` says, for people.
+    """Return what `identification_record` says, for people: the answer, doubts, then tables.
 
-    The record also names the `file` and the origin of the `forces`, and the `picture` or None.
+    The record also names the `file` and the origin of the `forces`, and the `picture` or None, and
+    says whether it is to be `verbose`.
     """
+    head = f"{len(record['wires'])} forces, {record['forces']}, from {record['file']}"
+    picture = f"Figure written to {record['picture']}" if record["picture"] else ""
+    if not record["verbose"]:
+        return brief(
+            [f"{record['answer']}.", *_remarks(record)],
+            [
+                *record["rests_on"],
+                f"{head}; --verbose prints all tables.",
+                *filter(None, [picture]),
+            ],
+            "--verbose tells",
+        )
     return "\n\n".join(
         section
         for section in (
-            f"{len(record['wires'])} forces, {record['forces']}, from {record['file']}",
+            "\n".join(fill(s, 96, subsequent_indent="  ") for s in (f"{record['answer']}.",)),
+            head,
+            _warnings_text(record["warnings"]),
             _properties_text(record),
             _estimates_text(record),
             profile_text(record),
@@ -218,16 +278,28 @@ def identification_text(record: Record) -> str:
             _lengths_text("Length", record["lengths"]),
             _lengths_text("Transition radius R_w*", record["transition_radii"]),
             _wires_text(record["wires"]),
-            _warnings_text(record["warnings"]),
-            f"Figure written to {record['picture']}" if record["picture"] else "",
+            "\n".join(fill(s, 96, subsequent_indent="  ") for s in record["rests_on"]),
+            picture,
         )
         if section
     )
 
 
+def _remarks(record: Record) -> list[str]:
+    remarks = [f"Warning: {sentence}." for sentence in record["warnings"]]
+    remarks += [f"Undecided: {sentence}." for sentence in record.get("undecided", ())]
+    if record.get("further_wire_words"):
+        purpose = "To decide" if record["undecided"] else "To know more"
+        remarks.append(f"{purpose}: {record['further_wire_words']}.")
+    return remarks + [f"{verdict}." for verdict in record.get("verdicts", ())]
+
+
+_MODULUS = ("shear modulus mu", "shear_modulus", 1.0, "Pa")
+
+
 def _properties_text(record: Record) -> str:
     shown = [
-        ("shear modulus mu", "shear_modulus", 1.0, "Pa"),
+        *([] if "shear_modulus" in record["assumed"] else [_MODULUS]),
         ("toughness Gamma, pure shear", "pure_shear_toughness", 1.0, "J/m2"),
         ("work of fracture W_f", "work_of_fracture", 1e-3, "kJ/m3"),
         ("friction coefficient xi", "friction_coefficient", 1.0, "-"),
@@ -249,9 +321,9 @@ def _estimates_text(record: Record) -> str:
     ):
         low, high = record[f"{key}_interval"]
         std = _std_text(record[key], record[f"{key}_std"], scale)
-        interval = f"{number(scale * low)} to {number(scale * high)}"
-        if std in (NO_SCATTER, UNKNOWN):
-            interval = std
+        interval = f"{number(scale * low)} to {_end(scale * high)}"
+        if math.isnan(low) or std == NO_SCATTER:
+            interval = UNKNOWN if math.isnan(low) else std
         rows.append((name, number(scale * record[key]), unit, std, interval))
     title, probability = f"Identified ({record['model']})", f"{100.0 * record['confidence']:.4g} %"
     header = (title, "value", "unit", "std. error", f"{probability} interval")
@@ -260,18 +332,11 @@ def _estimates_text(record: Record) -> str:
         quality += f", R^2 = {record['r_squared']:.4f}"
     if record["reduced_chi_squared"] is not None:
         quality += f", chi^2/dof = {number(record['reduced_chi_squared'])}"
-    return f"{table(header, rows)}\n{quality}{_model_error_text(record)}"
+    return f"{table(header, rows)}\n{quality}"
 
 
-def _model_error_text(record: Record) -> str:
-    """Return what the intervals do not contain."""
-    if record["model_error"] is None:
-        return ""
-    gamma, tau = record["model_error"]
-    return (
-        f"\non top of it the error of model '{record['model']}' itself: up to "
-        f"{number(gamma, digits=2)} J/m2 and {number(1e-3 * tau, digits=2)} kPa"
-    )
+def _end(high: float) -> str:
+    return number(high) if math.isfinite(high) else "any"
 
 
 def _lengths_text(title: str, lengths: Mapping[str, Record]) -> str:

@@ -18,6 +18,7 @@ from surrogate.cli.common import (
 from surrogate.cli.identification_text import identification_record, identification_text
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
+from surrogate.inference.inputs import WITHOUT_MODULUS
 from surrogate.reading.material import Material, read_material
 from surrogate.reading.measurements import read_measurements
 from surrogate.reading.units import (
@@ -62,7 +63,8 @@ def add_fact_options(command: argparse.ArgumentParser, quantity: Parser) -> None
         type=quantity(LENGTH),
         nargs=2,
         metavar=("SMALLEST", "LARGEST"),
-        help="radii of further wires to choose from (default 1/5 to 5 times those cut with)",
+        help="radii of further wires to choose from (default 1/5 to 5 times those cut with, from "
+        "20 um to 2 mm across)",
     )
 
 
@@ -80,7 +82,32 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         "--example", action="store_true", help="use the shipped gel of the paper (PAAm)"
     )
     add("--material", metavar="FILE", help="properties of the gel (JSON), instead of options")
-    add("--shear-modulus", type=quantity(STRESS), metavar="MU", help="shear modulus mu")
+    add(
+        "--shear-modulus",
+        type=measured(STRESS),
+        metavar="MU",
+        help="shear modulus mu, with its standard error if you know it: 685+-30Pa",
+    )
+    add(
+        "--youngs-modulus",
+        type=measured(STRESS),
+        metavar="E",
+        help="Young's modulus, instead of mu = E/3 of what does not change its volume",
+    )
+    for name, symbol in (("friction", "xi"), ("stiffening", "alpha")):
+        add(
+            f"--{name}-std",
+            type=quantity(NUMBER),
+            metavar="STD",
+            help=f"standard error of {symbol}, which becomes part of the intervals",
+        )
+    add(
+        "--relative-error",
+        type=percent,
+        metavar="SHARE",
+        help="standard error of every force where only that is known: 5%%",
+    )
+    add("--verbose", action="store_true", help="print every table, not only the answer")
     add_friction_and_stiffening(command, friction=None, stiffening=None)
     add(
         "--pure-shear-toughness",
@@ -111,15 +138,25 @@ def run_identify(options: argparse.Namespace) -> None:
     file = model_file("paam-wire-cutting.csv") if options.example else options.file
     measurements = read_measurements(file)
     material = _material(options)
-    if material.shear_modulus is None:
-        raise InputError("the shear modulus is missing; give --shear-modulus or --material.")
+    modulus, modulus_std = _modulus(options, material)
+    if modulus is None and needs_modulus(options.model, material.friction_coefficient):
+        raise InputError(
+            "the shear modulus is missing; give --shear-modulus or --material (only --model eq13 "
+            "without friction needs none)."
+        )
+    material = replace(material, shear_modulus=modulus, shear_modulus_std=modulus_std or None)
     fit = identify(
         measurements.wire_radius,
         measurements.force,
-        material.shear_modulus,
-        friction_coefficient=_given(material.friction_coefficient, 0.0),
-        stiffening_exponent=_given(material.stiffening_exponent, 2.0),
-        force_std=measurements.force_std,
+        modulus,
+        friction_coefficient=material.friction_coefficient,
+        stiffening_exponent=material.stiffening_exponent,
+        shear_modulus_std=modulus_std,
+        friction_std=_given(options.friction_std, 0.0),
+        stiffening_std=_given(options.stiffening_std, 0.0),
+        force_std=None if options.relative_error else measurements.force_std,
+        relative_error=options.relative_error,
+        sample=getattr(measurements, "sample", None),
         model=options.model,
         rtol=options.rtol,
         confidence=options.confidence,
@@ -141,6 +178,7 @@ def run_identify(options: argparse.Namespace) -> None:
         write_curve(fit, options.csv)
     record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
     record |= identification_record(fit, material)
+    record["verbose"] = options.verbose
     print_record(options, record, identification_text)
 
 
@@ -154,11 +192,70 @@ def _material(options: argparse.Namespace) -> Material:
     given = {
         field.name: value
         for field in fields(Material)
+        if field.name != "shear_modulus"
         if (value := getattr(options, field.name, None)) is not None
     }
     # A value from the command line comes without the standard error of the one it replaces.
     unknown = {f"{name}_std": None for name in given if hasattr(material, f"{name}_std")}
     return replace(material, **unknown, **given)
+
+
+def measured(dimension: Dimension) -> Callable[[str], tuple[float, float]]:
+    """Return a parser of a quantity with or without its standard error, as 685+-30Pa.
+
+    Examples
+    --------
+    >>> measured(STRESS)("0.685+-0.03kPa")
+    (685.0, 30.0)
+    """
+    parse = quantity(dimension)
+
+    def parsed(text: str) -> tuple[float, float]:
+        value, sign, rest = text.replace("\u00b1", "+-").partition("+-")
+        if not sign:
+            return parse(text), 0.0
+        unit = rest.lstrip().lstrip("0123456789.eE").strip()
+        return parse(
+            value.strip() if value.strip()[-1:].isalpha() else value.strip() + unit
+        ), parse(rest.strip())
+
+    return parsed
+
+
+def percent(text: str) -> float:
+    """Return a share that may be written with a percent sign.
+
+    Examples
+    --------
+    >>> percent("5%"), percent("0.05")
+    (0.05, 0.05)
+    """
+    share = text.strip().removesuffix("%")
+    try:
+        value = float(share)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05") from None
+    return value / 100.0 if text.strip().endswith("%") else value
+
+
+def needs_modulus(model: str, friction: float | None) -> bool:
+    """Return whether the forces of a model depend on the shear modulus."""
+    return model not in WITHOUT_MODULUS or bool(friction)
+
+
+def _modulus(options: argparse.Namespace, material: Material) -> tuple[float | None, float]:
+    """Return mu and its standard error [Pa]: of the options, else of the material's file."""
+    if options.shear_modulus is not None and options.youngs_modulus is not None:
+        raise InputError(
+            "--shear-modulus and --youngs-modulus are both given, and E = 3 mu; give one of them."
+        )
+    if options.shear_modulus is not None:
+        value, std = options.shear_modulus
+        return value, std
+    if options.youngs_modulus is not None:
+        value, std = options.youngs_modulus
+        return value / 3.0, std / 3.0
+    return material.shear_modulus, _given(material.shear_modulus_std, 0.0)
 
 
 def _given(value: float | None, default: float) -> float:

@@ -49,6 +49,9 @@ FEWEST_OTHERS = 3
 LEAST_SCATTER = 1e-3
 """Of the forces; others that agree better do so by chance or by rounding."""
 
+EXACT = 1e-5
+"""Of the forces; where forces share errors, what is met better is searched no further."""
+
 _ROUNDING = 64.0 * np.finfo(float).eps
 
 
@@ -356,4 +359,5 @@ def _shape(fit: Estimate) -> str:
 
 
 def _is_exact(fit: Estimate) -> bool:
-    return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= _ROUNDING * np.max(fit.force))
+    least = _ROUNDING if fit.scale is None or fit.force_std is not None else EXACT
+    return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= least * np.max(fit.force))

@@ -107,7 +107,8 @@ class Identification(Estimate):
     With `profile`, intervals and `band` come from the misfit itself, and may be lopsided; standard
     errors and covariance are those of the force's derivatives at the estimate.
 
-    Standard errors of lengths come from the covariance by first-order propagation. They hold where the standard error of tau_w is small beside tau_w.
+    Standard errors of lengths come from the covariance by first-order propagation. They hold where
+    the standard error of tau_w is small beside tau_w.
 
     References
     ----------
@@ -196,12 +197,15 @@ def identify(
         `wear_strength` or a prior is given.
     force : array_like, shape (n,)
         Steady-state cutting force per thickness F_ss/T [N/m].
-    shear_modulus : float
-        mu [Pa]; needed for g and, with friction, for the stiffness term.
-    friction_coefficient : float, default 0
-        xi [-].
-    stiffening_exponent : float, default 2
-        alpha of the Ogden solid, Eq. (1) [-].
+    shear_modulus : float, optional
+        mu [Pa]; needed for g and, with friction, for the stiffness term. Eq. (13) without friction
+        needs none.
+    friction_coefficient : float, optional
+        xi [-]; assumed to be 0 where it is not given.
+    stiffening_exponent : float, optional
+        alpha of the Ogden solid, Eq. (1) [-]; assumed to be 2 where it is not given. A negative one
+        counts as its absolute value: in plane strain an incompressible solid has l_1 = 1/l_2, so
+        that both are the same solid.
     force_std : array_like, shape (n,) or scalar, optional
         Standard error of each force [N/m]: for a mean of m cuts that scatter by s,
         s/sqrt(m). Given, it is taken as known: it weights the fit, intervals use normal
@@ -235,7 +239,8 @@ def identify(
         Mean and standard deviation of what is known of tau_w [Pa]; needs `force_std`.
     further_radii : tuple of float, optional
         Smallest and largest radius of a further wire that you could cut with [m]; by default from
-        a fifth of the thinnest to five times the thickest of the wires.
+        a fifth of the thinnest to five times the thickest of the wires, but from 20 um to 2 mm
+        across as far as theirs allow.
 
     Returns
     -------

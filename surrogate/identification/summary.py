@@ -13,7 +13,7 @@ from surrogate.identification.doubts import fit_warnings
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.open_questions import undecided
 
-__all__ = ["MOST_LINES", "answer", "assumptions", "budget", "rounded", "summary"]
+__all__ = ["MOST_LINES", "answer", "assumptions", "brief", "budget", "rests_on", "summary"]
 
 MOST_LINES = 25
 WIDTH = 96
@@ -93,7 +93,7 @@ def _quantities(fit: Estimate) -> Iterator[str]:
 
 def _range(value: float, low: float, high: float, limits: tuple[str, str], several: bool) -> str:
     """Return a value with its interval, or the one end that the forces decide."""
-    below, above = (limit == "forces" for limit in limits)
+    below, above = limits[0] == "forces", limits[1] in ("forces", "zero")
     error = 0.5 * (high - low) if math.isfinite(high - low) else 0.5 * (value - low)
     if "given" in limits:
         return f"= {number(value)} (given)"
@@ -147,30 +147,44 @@ def budget(fit: Estimate) -> str:
     return f"Standard errors come from: {'; '.join(parts)}."
 
 
-def summary(fit: Estimate, lines: int = MOST_LINES) -> str:
-    """Return the answer, then doubts, then what it rests on, in at most so many lines."""
-    blocks = [_wrapped(f"{answer(fit)}.")]
-    blocks += [_wrapped(f"Warning: {sentence}.") for sentence in fit_warnings(fit)]
-    blocks += [_wrapped(f"Undecided: {sentence}.") for sentence in undecided(fit)]
-    last = [_wrapped(assumptions(fit)), _wrapped(budget(fit))]
-    if fit.scatter is not None:
-        last.insert(0, _wrapped(f"Scatter of a cut: {fit.scatter.words}."))
-    return "\n".join(_fitting(blocks, [block for block in last if block], lines))
+def summary(fit: Estimate) -> str:
+    """Return the answer, then doubts, then what it rests on, in at most 25 lines."""
+    remarks = [f"Warning: {sentence}." for sentence in fit_warnings(fit)]
+    remarks += [f"Undecided: {sentence}." for sentence in undecided(fit)]
+    return brief(
+        [f"{answer(fit)}.", *remarks], rests_on(fit), "fit.warnings and fit.undecided tell"
+    )
 
 
-def _fitting(blocks: list[list[str]], last: list[list[str]], most: int) -> list[str]:
-    """Return as many blocks as the lines allow, before the last ones."""
-    room = most - sum(map(len, last)) - 1
+def rests_on(fit: Estimate) -> list[str]:
+    """Return sentences on the scatter, what was given or assumed, and the sources of error."""
+    scatter = "" if fit.scatter is None else f"Scatter of a cut: {fit.scatter.words}."
+    return [sentence for sentence in (scatter, assumptions(fit), budget(fit)) if sentence]
+
+
+def brief(first: list[str], last: list[str], where: str, most: int = MOST_LINES) -> str:
+    """Return sentences as lines: as many of the first as there is room for, and all the last.
+
+    Examples
+    --------
+    >>> print(brief(["a"] * 5, ["z"], "--verbose tells", most=4))
+    a
+    a
+    ... and 3 more remarks, which --verbose tells.
+    z
+    """
+    end = [line for sentence in last for line in _wrapped(sentence)]
+    blocks = [_wrapped(sentence) for sentence in first]
+    if sum(map(len, blocks)) + len(end) <= most:
+        return "\n".join([line for block in blocks for line in block] + end)
     shown: list[str] = []
-    left = 0
-    for block in blocks:
-        if left or len(shown) + len(block) > room:
-            left += 1
-        else:
-            shown += block
-    if left:
-        shown.append(f"... and {left} more remarks, which --verbose or fit.warnings tell.")
-    return [*shown, *(line for block in last for line in block)]
+    count = 0
+    for count, block in enumerate(blocks):  # noqa: B007
+        if len(shown) + len(block) + 1 + len(end) > most:
+            break
+        shown += block
+    left = len(blocks) - count
+    return "\n".join([*shown, f"... and {left} more remarks, which {where}.", *end])
 
 
 def _wrapped(sentence: str) -> list[str]:
