@@ -1,0 +1,157 @@
+"""Made-up experiments, in and out of a model's range: how often printed intervals hold the truth.
+
+What the user states is true: the stated standard errors are those that the numbers were drawn with.
+The truth is the fitted model times a smooth error within its measured bounds, and beyond its range
+the arc goes on with up to the slope that the continuation drops.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import surrogate
+from surrogate.choosing.by_name import force_model
+from surrogate.errors import WirecutError
+from surrogate.inference.continuation import contact_error
+
+__all__ = ["Outcome", "drawn", "forgotten_friction", "gross_error", "outcome"]
+
+MODEL = "table"
+CONFIDENCE = 0.95
+GROSS = 10.0
+"""Standard deviations of one cut that a gross error is off."""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What was drawn, what the user states, and the forces."""
+
+    toughness: float
+    wear_strength: float
+    stated: dict
+    std: np.ndarray
+    g: np.ndarray
+    kinds: dict
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Whether the intervals hold the truth, and what was said."""
+
+    kinds: dict
+    inside: tuple[bool, bool]
+    one_sided: bool
+    outlier: bool
+    fit: object
+
+
+def _log_uniform(random, low, high):
+    return math.exp(random.uniform(math.log(low), math.log(high)))
+
+
+def drawn(random, **fixed):
+    """Return a random experiment."""
+    model = force_model(MODEL)
+    wires, spread = int(random.integers(3, 9)), _log_uniform(random, 1.5, 20.0)
+    middle, modulus = _log_uniform(random, 2e-5, 1e-3), _log_uniform(random, 1e2, 1e6)
+    alpha = _log_uniform(random, 2.0, 9.0)
+    repeats = int(random.choice([1, 1, 4]))
+    g_middle = _log_uniform(random, 1e-3, 1e4)
+    toughness = g_middle * modulus * middle
+    wear = _log_uniform(random, 0.03, 30.0) * toughness / (4.0 * middle)
+    friction = fixed.get("friction", random.choice([0.0, random.uniform(0.0, 0.5)]))
+    radius = middle * np.geomspace(spread**-0.5, spread**0.5, wires)
+    g = toughness / (modulus * radius)
+    arc, load = model.contact(("arc", "normal_load"), g, alpha)
+    arc, load = arc * _error(random, model, g, alpha, 0), load * _error(random, model, g, alpha, 1)
+    exact = toughness + 2.0 * radius * (wear * np.minimum(arc, 2.0) + friction * modulus * load)
+    noise = _log_uniform(random, 0.01, 0.2)
+    proportional = bool(random.integers(2))
+    std = noise * (exact if proportional else np.full(wires, exact.mean()))
+    radius, exact, std = (np.repeat(each, repeats) for each in (radius, exact, std))
+    force = np.maximum(exact + std * random.standard_normal(exact.size), 1e-3 * exact)
+    known = bool(random.integers(2))
+    friction_std = fixed.get("friction_std", float(random.choice([0.0, 0.05])))
+    modulus_std = float(random.choice([0.0, 0.05]))
+    stated = {
+        "wire_radius": radius,
+        "force": force,
+        "shear_modulus": modulus * math.exp(modulus_std * random.standard_normal()),
+        "friction_coefficient": max(friction + friction_std * random.standard_normal(), 0.0),
+        "stiffening_exponent": alpha,
+        "friction_std": friction_std,
+        "force_std": std if known else None,
+        "model": MODEL,
+        "confidence": CONFIDENCE,
+    }
+    stated["shear_modulus_std"] = modulus_std * stated["shear_modulus"]
+    low, high = model.limits.g
+    outside = np.count_nonzero((g < low) | (g > high))
+    kinds = {
+        "wires": "all in range" if not outside else "none" if outside == g.size else "some",
+        "g": f"1e{math.floor(math.log10(g_middle)):+d}",
+        "errors": "force_std" if known else "repeats" if repeats > 1 else "residuals only",
+        "scatter": "proportional" if proportional else "constant",
+        "friction": "with a standard error" if friction_std else "exact",
+        "modulus": "with a standard error" if modulus_std else "exact",
+        "noise": "1 to 5 %" if noise < 0.05 else "5 to 20 %",
+    }
+    return Experiment(toughness, wear, stated, std, g, kinds)
+
+
+def _error(random, model, g, alpha, which):
+    """Return the factor by which the truth differs from the model."""
+    error = contact_error(model, g, alpha)
+    near, drift = ((error.arc, error.arc_drift), (error.load, error.load_drift))[which]
+    length = _log_uniform(random, 0.3, 3.0)
+    apart = np.abs(np.log(g)[:, np.newaxis] - np.log(g)) / length
+    root = np.linalg.cholesky(np.exp(-(apart**2)) + 1e-9 * np.eye(g.size))
+    smooth = np.clip(root @ random.standard_normal(g.size), -math.sqrt(3.0), math.sqrt(3.0))
+    slope = random.uniform(-math.sqrt(3.0), math.sqrt(3.0))
+    return np.exp(near * smooth + drift * slope)
+
+
+def outcome(experiment, outliers=False, **changes):
+    """Identify an experiment, and look for outliers if asked; None where it is refused."""
+    try:
+        fit = surrogate.identify(**{**experiment.stated, **changes})
+    except WirecutError:
+        return None
+    truths = experiment.toughness, experiment.wear_strength
+    intervals = fit.toughness_interval, fit.wear_strength_interval
+    inside = tuple(
+        bool(low <= truth <= high) for truth, (low, high) in zip(truths, intervals, strict=True)
+    )
+    ends = (*fit.toughness_limited_by, *fit.wear_strength_limited_by)
+    warned = outliers and any("an outlier" in sentence for sentence in fit.warnings)
+    return Outcome(experiment.kinds, inside, any(end != "forces" for end in ends), warned, fit)
+
+
+def gross_error(random, experiment):
+    """Return the experiment with one cut off by a gross error; None where that makes no force."""
+    force = experiment.stated["force"].copy()
+    which = int(random.integers(force.size))
+    force[which] += random.choice([-1.0, 1.0]) * GROSS * experiment.std[which]
+    if force[which] <= 0.0:
+        force[which] += 2.0 * GROSS * experiment.std[which]
+    return replace(experiment, stated={**experiment.stated, "force": force})
+
+
+def forgotten_friction(experiment):
+    """Return the bias that forgotten friction brings and what the sensitivity says of it.
+
+    Both of shape (2,), of Gamma_o and tau_w; None where an estimate is held by a limit.
+    """
+    xi = experiment.stated["friction_coefficient"]
+    told = outcome(experiment)
+    forgotten = outcome(experiment, friction_coefficient=None, friction_std=0.0)
+    if told is None or forgotten is None or told.fit.at_limit or forgotten.fit.at_limit:
+        return None
+    bias = np.array(
+        [
+            forgotten.fit.toughness - told.fit.toughness,
+            forgotten.fit.wear_strength - told.fit.wear_strength,
+        ]
+    )
+    return bias, -xi * np.array(forgotten.fit.friction_sensitivity)
