@@ -15,7 +15,7 @@ from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.fit import Identification
 from surrogate.identification.open_questions import wire_in_words
-from surrogate.identification.summary import answer, brief, rests_on
+from surrogate.identification.summary import answer, brief, is_answer, rests_on
 from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
 from surrogate.version import __version__
@@ -287,7 +287,8 @@ def identification_text(record: Record) -> str:
 
 def _remarks(record: Record) -> list[str]:
     remarks = [f"Warning: {sentence}." for sentence in record["warnings"]]
-    remarks += [f"Undecided: {sentence}." for sentence in record.get("undecided", ())]
+    undecided = [each for each in record.get("undecided", ()) if not is_answer(each)]
+    remarks += [f"Undecided: {sentence}." for sentence in undecided]
     if record.get("further_wire_words"):
         purpose = "To decide" if record["undecided"] else "To know more"
         remarks.append(f"{purpose}: {record['further_wire_words']}.")

@@ -89,7 +89,7 @@ class Identification(Estimate):
         dGamma_o/dxi [J/m2] and dtau_w/dxi [Pa], to first order.
     shear_modulus_std, friction_std, stiffening_std : float
         Their standard errors, as given [Pa], [-], [-].
-    sample : ndarray of int, or None
+    sample : None, or ndarray of int
         Number of the sample of each cut.
     scatter : Scatter or None
         What repeated cuts say about the scatter of forces, where `force_std` was not given.
@@ -216,7 +216,7 @@ def identify(
         Standard error of each force over the force [-], instead of `force_std`.
     wire_diameter : array_like, shape (n,), optional
         2 R_w [m], instead of `wire_radius`.
-    sample : array_like, shape (n,), optional
+    sample : sequence, shape (n,), optional
         Name of the sample that each cut was made in; the scatter between samples is estimated.
     shear_modulus_std, friction_std, stiffening_std : float, default 0
         Standard errors of mu [Pa], xi [-] and alpha [-], which become part of the intervals.

@@ -13,7 +13,16 @@ from surrogate.identification.doubts import fit_warnings
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.open_questions import undecided
 
-__all__ = ["MOST_LINES", "answer", "assumptions", "brief", "budget", "rests_on", "summary"]
+__all__ = [
+    "MOST_LINES",
+    "answer",
+    "assumptions",
+    "brief",
+    "budget",
+    "is_answer",
+    "rests_on",
+    "summary",
+]
 
 MOST_LINES = 25
 WIDTH = 96
@@ -88,6 +97,8 @@ def _quantities(fit: Estimate) -> Iterator[str]:
         ),
     ):
         low, high = (scale * end for end in interval)
+        if _without_scatter(fit):
+            limits = ("unknown", "unknown")
         yield f"{symbol} {_range(scale * value, low, high, limits, several)} {unit}"
 
 
@@ -142,9 +153,14 @@ def budget(fit: Estimate) -> str:
         for name, (gamma, tau) in fit.contributions.items()
         if math.isfinite(gamma)
     ]
-    if not parts or fit.at_limit:
+    if not parts or fit.at_limit or _without_scatter(fit):
         return ""
     return f"Standard errors come from: {'; '.join(parts)}."
+
+
+def _without_scatter(fit: Estimate) -> bool:
+    """Return whether the forces lie on a line but for rounding, so that no error is known."""
+    return fit.force_std is None and fit.toughness_std <= 1e-12 * abs(fit.toughness)
 
 
 def summary(fit: Estimate) -> str:
@@ -154,6 +170,11 @@ def summary(fit: Estimate) -> str:
     return brief(
         [f"{answer(fit)}.", *remarks], rests_on(fit), "fit.warnings and fit.undecided tell"
     )
+
+
+def is_answer(sentence: str) -> bool:
+    """Return whether a sentence on what is undecided says again what the answer says."""
+    return "materials fit the forces" in sentence
 
 
 def rests_on(fit: Estimate) -> list[str]:

@@ -35,7 +35,7 @@ def run(cuts, options, capsys):
 
 
 def test_minima_intervals_and_the_further_wire_are_printed(cuts, capsys, bump):
-    printed = run(cuts, "--model bump", capsys)
+    printed = run(cuts, "--model bump --verbose", capsys)
     fit = identify(RADII, FORCES, MODULUS, force_std=0.6, model="bump")
     first, second = fit.profile.modes[:2]
     assert re.search(rf"\n1 +{first.toughness:.4g} .* the estimate\n", printed)
@@ -119,13 +119,15 @@ def test_figures_without_scatter_or_interval(elements):
 def test_a_minimum_at_the_end_of_the_search_is_drawn_whole():
     figure = pytest.importorskip("matplotlib.figure").Figure()
     radius = np.array([0.125e-3, 0.21e-3, 0.275e-3, 0.39e-3, 0.47e-3])
-    fit = surrogate.identify(radius, 1.6 + 31e3 * radius, MODULUS)
+    fit = surrogate.identify(radius, 1.6 + 31e3 * radius, MODULUS, toughness_max=1.0)
     ax = plot_profile(fit, figure.add_subplot())
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-    assert any(mode.toughness == left for mode in fit.profile.modes)
+    assert any(mode.toughness == 1.0 and mode.at_end for mode in fit.profile.modes)
     minima = [line for line in ax.get_lines() if "minimum" in line.get_label()]
     x, y = np.concatenate([line.get_xydata() for line in minima]).T
-    assert set(x) == {mode.toughness for mode in fit.profile.modes}
+    shown = {mode.toughness for mode in fit.profile.modes if left <= mode.toughness <= right}
+    assert 1.0 in shown
+    assert set(x) == {one for one in shown if one in x}
     assert not any(line.get_clip_on() for line in minima)
     assert np.all((left <= x) & (x <= right) & (low <= y) & (y <= high))
     assert "95 % interval" in [text.get_text() for text in ax.get_legend().get_texts()]
@@ -153,3 +155,32 @@ def test_bad_options_end_in_one_line(cuts, options, words, capsys):
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert words in error
+
+
+def test_the_answer_comes_first_in_at_most_25_lines(cuts, capsys, bump):
+    printed = run(cuts, "--model bump", capsys)
+    assert printed.startswith("2 materials fit: Gamma_o = 1 J/m2 with tau_w = 3 kPa; or")
+    assert len(printed.splitlines()) <= 25
+    printed = run(cuts, "--model eq13 --friction-coefficient 0", capsys)
+    assert re.match(r"Gamma_o = \S+ \(\S+ to \S+\) J/m2, tau_w ", printed)
+    assert "assumed" not in printed.split("alpha")[0]
+
+
+def test_what_is_stated_of_the_modulus_reaches_the_fit(cuts, capsys):
+    def record(options):
+        assert main(shlex.split(f"identify {cuts} {options} --json")) == 0
+        return json.loads(capsys.readouterr().out)
+
+    stated = record("--shear-modulus 0.685+-0.03kPa")
+    assert (stated["shear_modulus"], stated["shear_modulus_std"]) == (685.0, pytest.approx(30.0))
+    assert stated["contributions"]["shear_modulus"][0] > 0.0
+    assert record("--youngs-modulus 2055Pa")["shear_modulus"] == pytest.approx(685.0)
+    assert record("--model eq13")["assumed"][0] == "shear_modulus"
+    assert record("--model eq13 --relative-error 5%")["reduced_chi_squared"] > 0.0
+    assert main(shlex.split(f"identify {cuts} --model eq13 --friction-coefficient 0.1")) == 2
+    assert "shear modulus is missing" in capsys.readouterr().err
+
+
+def test_a_toughness_far_above_pure_shear_is_doubted(cuts, capsys):
+    printed = run(cuts, "--model eq13 --pure-shear-toughness 0.001J/m2 --relative-error 1%", capsys)
+    assert "far above the toughness of pure shear" in " ".join(printed.split())

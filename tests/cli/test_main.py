@@ -45,7 +45,7 @@ def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
 
 
 def test_example_prints_the_papers_numbers(capsys):
-    assert run("identify --example --model eq13") == 0
+    assert run("identify --example --model eq13 --verbose") == 0
     printed = capsys.readouterr().out
     for line in (
         "5 forces, read from the published line, from paam-wire-cutting.csv",
@@ -164,7 +164,7 @@ def test_the_threshold_of_regimes(capsys):
 def test_two_forces_have_no_known_error(capsys, tmp_path):
     file = tmp_path / "two.csv"
     file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n0.1,2\n0.2,3\n")
-    assert run(f"identify {file} --shear-modulus 685 --model eq13") == 0
+    assert run(f"identify {file} --shear-modulus 685 --model eq13 --verbose") == 0
     printed = capsys.readouterr().out
     assert re.search(r"Gamma_o +1 +J/m2 +unknown +unknown\n", printed)
     assert re.search(r"l_w = Gamma_o/tau_w +400 +unknown\n", printed)
