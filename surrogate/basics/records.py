@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from html import escape
 from typing import Any
@@ -13,7 +13,43 @@ import numpy as np
 
 from surrogate.basics.checks import shown
 
-__all__ = ["UNKNOWN", "Record", "Shown", "html_of_record", "html_table", "number", "table"]
+__all__ = [
+    "UNKNOWN",
+    "ReadOnly",
+    "Record",
+    "Shown",
+    "html_of_record",
+    "html_table",
+    "number",
+    "table",
+]
+
+
+class ReadOnly(Mapping[Any, Any]):
+    """A mapping that cannot be changed, but pickled and deep-copied, as a mappingproxy cannot.
+
+    Examples
+    --------
+    >>> ReadOnly({"xi": 0.1})["xi"]
+    0.1
+    """
+
+    __slots__ = ("_items",)
+
+    def __init__(self, items: Mapping[Any, Any]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._items[key]
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __repr__(self) -> str:
+        return f"ReadOnly({self._items!r})"
 
 
 class Shown:

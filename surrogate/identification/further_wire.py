@@ -58,8 +58,7 @@ class FurtherWire:
 
     @property
     def breaking_force(self) -> float:
-        """Force at which a steel wire of this radius breaks [N]; hold it beside the force times
-        the width of the sample."""
+        """Force at which a steel wire of this radius breaks [N]."""
         return STEEL_STRENGTH * float(np.pi) * self.wire_radius**2
 
     @property

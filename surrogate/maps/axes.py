@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import SMALLEST, Quantity, one_number, shown
-from surrogate.basics.records import Record
+from surrogate.basics.records import ReadOnly, Record
 from surrogate.errors import InputError
 from surrogate.scene import NAMES, QUANTITIES
 
@@ -61,7 +60,7 @@ def _coordinates() -> Mapping[str, Coordinate]:
         (ALPHA, r"\alpha", "stiffening exponent"),
     )
     found = [
-        Coordinate(quantity, symbol, words, MappingProxyType({name: 1}))
+        Coordinate(quantity, symbol, words, ReadOnly({name: 1}))
         for quantity, (name, symbol, words) in zip(QUANTITIES, symbols, strict=True)
     ]
     for name, symbol, words, powers in (
@@ -72,8 +71,8 @@ def _coordinates() -> Mapping[str, Coordinate]:
         ("tau_w/(xi mu)", r"\tau_w/(\xi\mu)", "wear over friction", {WEAR: 1, XI: -1, MU: -1}),
     ):
         quantity = Quantity(name, "", "give a positive number without unit", lower=SMALLEST)
-        found.append(Coordinate(quantity, symbol, words, MappingProxyType(powers)))
-    return MappingProxyType({one.name: one for one in found})
+        found.append(Coordinate(quantity, symbol, words, ReadOnly(powers)))
+    return ReadOnly({one.name: one for one in found})
 
 
 COORDINATES = _coordinates()

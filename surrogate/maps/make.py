@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import SMALLEST, Quantity, mapping, one_number, shown
-from surrogate.basics.records import html_table, number
+from surrogate.basics.records import ReadOnly, html_table, number
 from surrogate.cutting.force import cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, THRESHOLD, regime_of, term_shares
 from surrogate.errors import InputError
@@ -224,16 +223,16 @@ def regime_map(
     plain = RegimeMap(
         axes[0],
         axes[1],
-        MappingProxyType(given),
+        ReadOnly(given),
         model,
         units,
         scene,
         force,
         regime,
-        MappingProxyType(dict(zip(shares, map(np.asarray, shares.values()), strict=True))),
+        ReadOnly(dict(zip(shares, map(np.asarray, shares.values()), strict=True))),
         share,
         (),
-        MappingProxyType(quantities),
+        ReadOnly(quantities),
     )
     return replace(plain, boundaries=boundaries(plain, wanted))
 

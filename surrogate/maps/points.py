@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import Quantity, broadcast_shape, mapping, shown, text
+from surrogate.basics.records import ReadOnly
 from surrogate.errors import InputError
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 
@@ -68,7 +68,7 @@ class MapPoints:
             error = Quantity(f"standard error of {name}", unit, "give the standard error")
             checked[name] = error.checked(value)
             broadcast_shape((error.name, *NAMES), (checked[name], *self.scene.values()))
-        object.__setattr__(self, "std", MappingProxyType(checked))
+        object.__setattr__(self, "std", ReadOnly(checked))
 
 
 def places(points: MapPoints, made: MapRecord) -> tuple[Array, Array]:
