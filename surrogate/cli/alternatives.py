@@ -107,6 +107,8 @@ def _again(fit: Identification, model: str, **known: Any) -> Identification:
 def _row(words: str, other: Identification, free: Identification | None) -> dict[str, Any]:
     """Return an alternative; whether it is admitted beside the free fit of the same model."""
     misfit = float(((other.cuts.weight * other.residuals) ** 2).sum())
+    if other.profile is not None:  # with what the forces share, as the threshold has it
+        misfit = other.profile.modes[0].misfit
     if misfit <= 1e-24 * float(((other.cuts.weight * other.force) ** 2).sum()):
         misfit = 0.0  # nothing but rounding
     admitted = None

@@ -346,7 +346,6 @@ def identify(
     total_sum = _square_sum((cuts.force - mean) * weight)
     identification = Identification(
         **fit,
-        correlation=_correlation(fit["covariance"]),
         r_squared=(
             1.0 - _square_sum(residuals * weight) / total_sum if total_sum > 0.0 else np.nan
         ),
@@ -396,11 +395,6 @@ def _html(fit: Identification) -> str:
         *(("undecided", sentence, "") for sentence in fit.undecided),
     ]
     return html_table("Identification", rows)
-
-
-def _correlation(covariance: Array) -> float:
-    scale = float(np.sqrt(np.prod(np.diag(covariance))))
-    return float(covariance[0, 1]) / scale if scale > 0.0 else np.nan
 
 
 def _square_sum(values: Array) -> float:

@@ -13,7 +13,7 @@ from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
 from surrogate.identification.further_wire import further_wire, range_of_wires
 from surrogate.inference.inputs import WIRE_RADIUS, Array, Cuts, Known
-from surrogate.inference.line_fit import solve_least_squares, solve_with_shared
+from surrogate.inference.line_fit import correlation_of, solve_least_squares, solve_with_shared
 from surrogate.inference.misfit import Misfit
 from surrogate.inference.profile import profile_misfit, smallest_misfit
 from surrogate.inference.quantiles import normal_quantile, student_quantile
@@ -135,7 +135,7 @@ def linearised(
     free = slice(0, 1 if known.wear_strength is not None else 2)
     if not np.all(np.isfinite(design)) or not np.all(np.any(design[:, free], axis=0)):
         nothing = np.full((2, 2), np.nan)
-        return _named(nothing, weight * np.nan, np.nan, {}, np.full(2, np.nan))
+        return _named(nothing, scale, weight * np.nan, np.nan, {}, np.full(2, np.nan))
     plain = solve_least_squares(design[:, free], design[:, 0])
     factors: dict[str, Array] = {}
     if misfit.scale is not None:
@@ -153,19 +153,23 @@ def linearised(
     shift = np.zeros(2)
     shift[free] = -np.linalg.lstsq(design[: weight.size, free], load, rcond=None)[0]
     covariance = np.zeros((2, 2))
-    covariance[free, free] = scale**2 * fit.covariance
-    return _named(covariance, plain.leverage[: weight.size], plain.condition, contributions, shift)
+    covariance[free, free] = fit.covariance
+    return _named(
+        covariance, scale, plain.leverage[: weight.size], plain.condition, contributions, shift
+    )
 
 
 def _named(
     covariance: Array,
+    scale: float,
     leverage: Array,
     condition: float,
     contributions: dict[str, tuple[float, float]],
     shift: Array,
 ) -> dict[str, Any]:
     return {
-        "covariance": covariance,
+        "covariance": scale**2 * covariance,
+        "correlation": correlation_of(covariance),
         "leverage": leverage,
         "condition": condition,
         "contributions": contributions,

@@ -16,6 +16,7 @@ from surrogate.inference.inputs import Cuts
 
 __all__ = [
     "LinearFit",
+    "correlation_of",
     "fit_line",
     "is_linear",
     "linear_form",
@@ -124,6 +125,18 @@ def solve_with_shared(
     return fit, {name: np.sqrt((part**2).sum(axis=1)) for name, part in parts.items()}
 
 
+def correlation_of(covariance: Array) -> float:
+    """Return the correlation of two unknowns, nan where one has no variance.
+
+    Examples
+    --------
+    >>> correlation_of(np.array([[4.0, 1.0], [1.0, 1.0]]))
+    0.5
+    """
+    scale = float(np.prod(np.sqrt(np.diag(covariance))))
+    return float(covariance[0, 1]) / scale if scale > 0.0 else np.nan
+
+
 def is_linear(model: str) -> bool:
     """Return whether the force of a model is linear in toughness and wear strength.
 
@@ -206,6 +219,7 @@ def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
         "residuals": residuals,
         "misfit": misfit,
         "covariance": scale**2 * fit.covariance,
+        "correlation": correlation_of(fit.covariance),
         "condition": plain.condition,
         "leverage": plain.leverage,
         "contributions": {name: (float(a), float(b)) for name, (a, b) in contributions.items()},
