@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate.basics.files import model_file
+from surrogate.basics.files import check_outputs, model_file
 from surrogate.cli.common import (
     add_friction_and_stiffening,
     add_model_option,
@@ -109,6 +109,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
 
 def run_identify(options: argparse.Namespace) -> None:
     file = model_file("paam-wire-cutting.csv") if options.example else options.file
+    check_outputs({"--plot": options.plot, "--csv": options.csv}, [file, options.material])
     measurements = read_measurements(file)
     material = _material(options)
     if material.shear_modulus is None:
