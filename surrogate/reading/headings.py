@@ -82,42 +82,50 @@ def plain(name: str) -> str:
     return " ".join(re.sub(r"[_\-.:;,\s#|]+", " ", letters).split()).replace(" / ", "/")
 
 
-def headings(sheet: Sheet, row: Row, words: Vocabulary, units: Row | None = None) -> list[Heading]:
+def headings(
+    sheet: Sheet,
+    row: Row,
+    words: Vocabulary,
+    units: Row | None = None,
+    optional: Sequence[str] = (),
+) -> list[Heading]:
     """Return what every column of a header holds; a quantity "" where a name is not known.
 
     Raises
     ------
     InputError
-        If a known name comes without a unit, or with one of another quantity.
+        If a known name comes without a unit, or with one of another quantity, unless it is one
+        of the `optional` quantities, which are then not known.
     """
-    given = units.cells if units else []
-    return [
-        _heading(sheet.place(row), number, name, given[number - 1 : number], words)
-        for number, name in enumerate(row.cells, start=1)
-    ]
+    below = units.cells if units else []
+    listed = []
+    for number, name in enumerate(row.cells, start=1):
+        base, stated = split_unit(name, words)
+        meanings, trial = meaning(base, words)
+        text = stated if stated is not None else _bare("".join(below[number - 1 : number]))
+        heading = _with_unit(Heading(number, name, trial=trial), meanings, text)
+        if meanings and heading.unit is None and meanings[0][0] not in optional:
+            raise _no_unit(f"{sheet.place(row)}, {heading}", *meanings[0], text)
+        listed.append(heading)
+    return listed
 
 
-def _heading(place: str, number: int, name: str, below: list[str], words: Vocabulary) -> Heading:
-    base, stated = split_unit(name, words)
-    meanings, trial = meaning(base, words)
-    heading = Heading(number, name, trial=trial)
-    if not meanings:
-        return heading
-    text = stated if stated is not None else _bare(below[0]) if below else ""
-    if not text:
-        quantity, dimension = meanings[0]
-        raise InputError(
-            f"{place}, {heading} has no unit; write it behind the name, as "
-            f"{dimension.spellings(quantity)}, or in a row below the names."
-        )
+def _with_unit(heading: Heading, meanings: Sequence[tuple[str, Dimension]], text: str) -> Heading:
     for quantity, dimension in meanings:
-        unit = dimension.unit(text)
-        if unit is not None:
+        if text and (unit := dimension.unit(text)):
             return heading._replace(quantity=quantity, unit=unit)
-    quantity, dimension = meanings[0]
-    raise InputError(
-        f"{place}, {heading} does not end with a unit of {quantity} that is known; "
-        f"write one of {dimension.spellings(quantity)}."
+    return heading
+
+
+def _no_unit(place: str, quantity: str, dimension: Dimension, text: str) -> InputError:
+    if text:
+        return InputError(
+            f"{place} does not end with a unit of {quantity} that is known; "
+            f"write one of {dimension.spellings(quantity)}."
+        )
+    return InputError(
+        f"{place} has no unit; write it behind the name, as {dimension.spellings(quantity)}, "
+        "or in a row below the names."
     )
 
 

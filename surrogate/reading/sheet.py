@@ -232,16 +232,24 @@ def _delimiter_of(lines: list[str]) -> str:
     return best
 
 
+def _is_numberish(cell: str) -> bool:
+    return _NUMBERISH.fullmatch(cell) is not None
+
+
 def _numbers(cells: list[str]) -> int:
     """Return 1 for a line of at least two cells that is a row of numbers, with words or not."""
-    numbers = sum(1 for cell in cells if _NUMBERISH.fullmatch(cell))
+    numbers = sum(map(_is_numberish, cells))
     filled = sum(1 for cell in cells if cell)
     return int(len(cells) > 1 and numbers > 0 and 2 * numbers >= min(filled, 3))
 
 
 def _decimal_of(file: str, rows: list[Row], delimiter: str) -> str:
     """Return the decimal sign that every number bears out, or ask for it."""
-    numeric = [row for row in rows if _numbers(row.cells) and len(row.cells) > 1] or rows
+    numeric = (
+        [row for row in rows if sum(map(_is_numberish, row.cells)) > 1 and _numbers(row.cells)]
+        or [row for row in rows if _numbers(row.cells)]
+        or rows
+    )
     certain: dict[str, Row] = {}
     open_: dict[str, tuple[Row, str]] = {}
     for row in numeric:
@@ -270,7 +278,7 @@ def _decimal_of(file: str, rows: list[Row], delimiter: str) -> str:
 
 def _sign_of(cell: str) -> str:
     """Return a number's decimal sign, that sign and ? where it may mark thousands, or nothing."""
-    if not _NUMBERISH.fullmatch(cell):
+    if not _is_numberish(cell):
         return ""
     marks = [mark for mark in cell if mark in ".,"]
     if not marks:

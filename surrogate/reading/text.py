@@ -11,6 +11,7 @@ __all__ = ["LARGEST_FILE", "read_lines"]
 
 LARGEST_FILE = 200_000_000
 LONGEST_LINE = 10_000
+_CHUNK = 100_000
 
 _MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig", "UTF-8"),
@@ -43,15 +44,7 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
     InputError
         If the file cannot be read, is no text, or has a line of 10 000 characters.
     """
-    with opened(file) as stream:
-        try:
-            raw = stream.read(LARGEST_FILE + 1)
-        except OSError as error:
-            raise InputError(
-                f"{file} cannot be read ({error.strerror}); give the path of a file."
-            ) from None
-    if len(raw) > LARGEST_FILE:
-        raise InputError(f"{file} has more than {LARGEST_FILE:.3g} bytes; is it a table?")
+    raw = _content(file)
     codec, name = (encoding, encoding) if encoding else _encoding_of(raw)
     lines = _decoded(file, raw, codec, name).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for number, line in enumerate(lines, start=1):
@@ -60,6 +53,23 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
                 f"{file}, line {number} has {LONGEST_LINE} characters or more; is it a table?"
             )
     return lines, name
+
+
+def _content(file: str) -> bytes:
+    raw = bytearray()
+    with opened(file) as stream:
+        try:
+            while chunk := stream.read(_CHUNK):  # what a pipe will give is not known before
+                raw += chunk
+                if len(raw) > LARGEST_FILE:
+                    raise InputError(
+                        f"{file} has more than {LARGEST_FILE:.3g} bytes; is it a table?"
+                    )
+        except OSError as error:
+            raise InputError(
+                f"{file} cannot be read ({error.strerror}); give the path of a file."
+            ) from None
+    return bytes(raw)
 
 
 def _encoding_of(raw: bytes) -> tuple[str, str]:
