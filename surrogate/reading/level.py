@@ -4,8 +4,11 @@ The stroke after contact is divided into cells of equal travel, whose mean force
 stretch of them is level where the line fitted to it changes by no more than the tolerance, and none
 of its four quarters is off its mean by more than half of that; the longest one is taken. The peak
 at which cutting begins does not pass; stick-slip does, because it averages out. What is left of the
-peak's decay is then cut off: cells at either end whose mean is outside the scatter of the others.
-`scripts/compare-plateaus` holds this against four other ways on records of known answers.
+peak's decay is then cut off where the mean is better known without it. `scripts/compare-plateaus`
+holds this against four other ways on records of known answers: it is among the nearest on every
+kind of record and refuses none of them, while the best piecewise line fails on stick-slip and
+correlated noise, the least standard error alone takes a piece of a drift, and the longest level
+stretch alone keeps a piece of the peak.
 """
 
 from __future__ import annotations
@@ -198,34 +201,31 @@ def level_stretch(cells: Cells, tolerance: float) -> tuple[float, float]:
     return float(cells.edges[begin]), float(cells.edges[end])
 
 
-def _running_mean(values: Array, size: int) -> Array:
-    return np.convolve(values, np.full(size, 1.0 / size), mode="valid")
-
-
 def trimmed(force: Array, begin: int, end: int) -> tuple[int, int]:
-    """Return a stretch without the cells at its ends that are outside the others' scatter.
+    """Return the part of a stretch whose mean is best known, of at least half its length.
 
-    At most a quarter is cut off at either end.
+    That is the part with the least sum of squares about its mean over the square of its length: a
+    longer one pays off until it takes in what is left of the peak. It is the rule by which
+    simulations drop their transients (White, Simulation 69 (1997) 323-334), for both ends.
 
     Examples
     --------
     >>> trimmed(np.r_[1.4, 1.2, 1.1, np.tile([1.0, 1.01], 20)], 0, 43)
     (3, 43)
     """
-    cells = force[begin:end]
-    size = max(1, cells.size // 20)
-    middle = cells[cells.size // 4 : cells.size - cells.size // 4]
-    level, scatter = float(np.mean(middle)), float(np.std(middle))
-    away = np.abs(_running_mean(cells - level, size)) > 4.0 * scatter / np.sqrt(size)
-    return begin + _last(away[: cells.size // 4]), end - _last(away[::-1][: cells.size // 4])
+    cells = force[begin:end] - np.mean(force[begin:end])
+    first, last = np.triu_indices(cells.size + 1, -(-cells.size // 2))
+    sums, squares = np.r_[0.0, np.cumsum(cells)], np.r_[0.0, np.cumsum(cells**2)]
+    length = (last - first).astype(float)
+    spread = squares[last] - squares[first] - (sums[last] - sums[first]) ** 2 / length
+    # Forces that are equal to rounding are no better known than that.
+    rounding = (1e-9 * float(np.max(np.abs(force[begin:end])))) ** 2
+    best = int(np.argmin((np.maximum(spread, 0.0) + length * rounding) / length**2))
+    return begin + int(first[best]), begin + int(last[best])
 
 
-def _last(away: NDArray[np.bool_]) -> int:
-    """Return how many values there are up to the last that is true.
-
-    The first alone would not do: from a rise to a peak the mean crosses the level.
-    """
-    return int(np.max(np.flatnonzero(away) + 1, initial=0))
+def _running_mean(values: Array, size: int) -> Array:
+    return np.convolve(values, np.full(size, 1.0 / size), mode="valid")
 
 
 def _no_level(cells: Cells, tolerance: float) -> str:

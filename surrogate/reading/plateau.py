@@ -106,8 +106,7 @@ def steady_force(
     The force before contact is subtracted where the record has ten samples of it. What comes after
     contact is divided into at most 120 cells of equal travel. The plateau is the longest stretch of
     them along which a fitted line changes by less than the tolerance, and of which no quarter is
-    off the mean by more than half of it; cells at its ends that are outside the scatter of the
-    others are cut off.
+    off the mean by more than half of it, and of that the half or more whose mean is best known.
 
     Parameters
     ----------
