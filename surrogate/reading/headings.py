@@ -94,20 +94,33 @@ def headings(
     Raises
     ------
     InputError
-        If a known name comes without a unit, or with one of another quantity, unless it is one
-        of the `optional` quantities, which are then not known.
+        If a known name comes without a unit, or with one of another quantity, unless another
+        column tells the same, or it is one of the `optional` quantities: it is then not known.
     """
     below = units.cells if units else []
-    listed = []
+    listed: list[Heading] = []
+    unclear: list[tuple[str, InputError]] = []
     for number, name in enumerate(row.cells, start=1):
         base, stated = split_unit(name, words)
         meanings, trial = meaning(base, words)
         text = stated if stated is not None else _bare("".join(below[number - 1 : number]))
         heading = _with_unit(Heading(number, name, trial=trial), meanings, text)
         if meanings and heading.unit is None and meanings[0][0] not in optional:
-            raise _no_unit(f"{sheet.place(row)}, {heading}", *meanings[0], text)
+            error = _no_unit(f"{sheet.place(row)}, {heading}", *meanings[0], text)
+            unclear.append((_kind(meanings[0][0]), error))
         listed.append(heading)
+    kinds = {_kind(one.quantity) for one in listed}
+    for kind, error in unclear:
+        if kind not in kinds:  # else it is a remark, such as a wire's name beside its diameter
+            raise error
     return listed
+
+
+def _kind(quantity: str) -> str:
+    """Return what a quantity tells, whichever way."""
+    return {"wire_radius": "wire", "wire_diameter": "wire", "force_per_thickness": "force"}.get(
+        quantity, quantity
+    )
 
 
 def _with_unit(heading: Heading, meanings: Sequence[tuple[str, Dimension]], text: str) -> Heading:

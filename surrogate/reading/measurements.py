@@ -156,7 +156,10 @@ class _Reader:
             table.notes.append(f"{sheet.file}: not used beside several trials: {self.std}")
             self.std = None
         elif self.std and "std" not in self.std.name:
-            table.notes.append(f"{sheet.file}: {self.std} is taken for the force's standard error")
+            table.notes.append(
+                f"{sheet.file}: {self.std} is taken for the standard error of each force; what is "
+                "the scatter of m cuts must be divided by the square root of m"
+            )
         if "force_per_thickness" in columns and "force" in columns:
             unused = ", ".join(map(str, columns["force"]))
             table.notes.append(f"{sheet.file}: not used beside force per thickness: {unused}")

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from surrogate.errors import InputError
 from surrogate.reading.records import read_record, read_records
@@ -289,3 +291,28 @@ def test_a_row_that_breaks_a_table(write):
     lines[9] = "overload,overload"
     with pytest.raises(InputError, match="line 10 is no row of numbers, and yet such rows follow"):
         read_record(write(lines))
+
+
+words = st.sampled_from(
+    ["Extension", "Load (N)", "Weg [mm]", "Kraft", "(mm)", "(N)", "0,5", "1.5", "-2", "1,234", '"']
+)
+cells = words | st.text(alphabet='0123456789.,;-\t" eNm', max_size=6)
+files = st.lists(st.lists(cells, max_size=4).map(";".join), max_size=12).map("\n".join)
+any_file = settings(
+    max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+@any_file
+@given(st.one_of(files.map(str.encode), st.binary(max_size=200)))
+def test_any_file_is_read_or_refused(tmp_path, content):
+    file = tmp_path / "any.csv"
+    file.write_bytes(content)
+    try:
+        records = read_records(file)
+    except InputError:
+        return
+    for record in records:
+        assert len(record.force) == len(record.displacement) >= 2
+        assert np.all(np.isfinite(record.force))
+        assert np.all(np.isfinite(record.displacement))

@@ -286,3 +286,20 @@ def test_units(text, dimension, value):
 def test_a_capital_that_would_change_the_size_is_refused(text, dimension):
     with pytest.raises(InputError, match="is not a"):
         parse_quantity(text, dimension)
+
+
+def test_a_remark_that_could_be_a_quantity(read):
+    cuts = read(lines("wire,diameter_mm,force,F/T (N/m)", ["A"] * 4, DIAMETERS, ["ok"] * 4, FORCES))
+    same(cuts)
+    assert "not used: column 1 (wire), column 3 (force)" in cuts.notes[0]
+
+
+def test_a_standard_deviation_is_not_taken_in_silence(read):
+    cuts = read(lines("d_mm,F/T (N/m),SD (N/m)", DIAMETERS, FORCES, STD))
+    same(cuts, std=True)
+    assert "divided by the square root of m" in cuts.notes[0]
+
+
+def test_lines_of_words_below_the_table_are_named(read):
+    with pytest.raises(InputError, match=r"line 6, column 1 \(d_mm\): 'mean' is not a number"):
+        read(lines("d_mm,F/T (N/m)", DIAMETERS, FORCES) + "mean,7.3\n")
