@@ -75,6 +75,13 @@ class SteadyForce(Record):
         The constant that was subtracted besides [N].
     warnings : tuple of str
         What to look at.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 0.02, 401)
+    >>> steady = steady_force(x, 0.08 * np.minimum(x / 1e-3, 1.0))
+    >>> steady.samples, steady.stick_slip, steady.warnings
+    (381, 0.0, ('the record begins in contact: no offset of the load cell is subtracted',))
     """
 
     mean: float
@@ -120,7 +127,8 @@ def steady_force(
     tare : float, default 0
         Constant force to subtract, such as buoyancy or the friction of the fixture [N].
     tolerance : float, default 0.05
-        Change along the plateau that counts as none, as a part of the force, 0.5 at most.
+        Change along the plateau that counts as none, as a part of the force, 0.5 at
+        most [-].
 
     Returns
     -------
