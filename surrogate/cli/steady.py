@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -54,7 +54,7 @@ def add_steady_options(command: argparse.ArgumentParser) -> None:
 
 
 def cuts_by_options(
-    options: argparse.Namespace, paths: Sequence[str], outputs: Sequence[str | None]
+    options: argparse.Namespace, paths: Sequence[str], outputs: Mapping[str, str | None]
 ) -> tuple[list[Cut], list[str]]:
     """Return the cuts in the records that the options name, and the files passed over."""
     if options.name and options.wires:
@@ -64,8 +64,8 @@ def cuts_by_options(
         wire_of = wires_by_name(options.name)
     elif options.wires:
         wire_of = wires_by_table(options.wires)
-    unread = [*outputs, options.wires]
-    files, over = record_files(paths, unread)
+    files, over = record_files(paths, [options.wires])
+    check_outputs(outputs, [*files, options.wires])
     plateau = {"start": options.start, "end": options.end, "tolerance": options.tolerance}
     cuts = cuts_of(
         files,
@@ -78,17 +78,15 @@ def cuts_by_options(
         delimiter=options.delimiter,
         encoding=options.encoding,
     )
-    return cuts, [name for name in over if name not in unread]
+    return cuts, over
 
 
 def run_steady(options: argparse.Namespace) -> int:
     """Print the steady forces, write their table and figure, and return the exit code."""
     outputs = {"--out": options.out, "--plot": options.plot}
-    inputs = [path for path in (*options.paths, options.wires) if path and os.path.isfile(path)]
-    check_outputs(outputs, inputs)
     if options.plot:
         picture_file(options.plot)
-    cuts, over = cuts_by_options(options, options.paths, [options.out, options.plot])
+    cuts, over = cuts_by_options(options, options.paths, outputs)
     if options.out:
         _write(cuts, options.out)
     if options.plot:

@@ -70,10 +70,21 @@ class Cut:
         return self.steady.mean / self.thickness
 
 
+OWN_TABLES = (b"# steady forces by wirecut", b"# identification by ")
+"""How tables begin that the commands write: they may lie beside the records, and are none."""
+
+
 def record_files(
-    paths: Sequence[str | PathLike[str]], outputs: Sequence[str | None] = ()
+    paths: Sequence[str | PathLike[str]], besides: Sequence[str | None] = ()
 ) -> tuple[list[str], list[str]]:
     """Return the files of records and, of folders among the paths, what is passed over.
+
+    Parameters
+    ----------
+    paths : sequence of str or path-like
+        Files, and folders of them.
+    besides : sequence of str or None
+        Files in these folders that are read as something else, such as the table of wires.
 
     Raises
     ------
@@ -82,14 +93,16 @@ def record_files(
     """
     files: list[str] = []
     over: list[str] = []
-    written = {os.path.realpath(name) for name in outputs if name}
+    other = {os.path.realpath(name) for name in besides if name}
     for path in map(file_name, paths):
         if not os.path.isdir(path):
             files.append(path)
             continue
         for name in _listed(path):
             full = os.path.join(path, name)
-            is_record = name.lower().endswith(ENDINGS) and os.path.realpath(full) not in written
+            if os.path.realpath(full) in other:
+                continue
+            is_record = name.lower().endswith(ENDINGS) and not _is_own_table(full)
             (files if is_record else over).append(full)
     if not files:
         raise InputError(
@@ -97,6 +110,14 @@ def record_files(
             f"{' '.join(ENDINGS)}; give files, or the folder that holds them."
         )
     return files, over
+
+
+def _is_own_table(file: str) -> bool:
+    try:
+        with open(file, "rb") as stream:
+            return stream.read(100).startswith(OWN_TABLES)
+    except OSError:
+        return False
 
 
 def _listed(folder: str) -> list[str]:
