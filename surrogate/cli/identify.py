@@ -11,6 +11,7 @@ from typing import Any
 
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.cli.common import (
+    DOUBTED,
     add_friction_and_stiffening,
     add_model_option,
     print_record,
@@ -144,7 +145,7 @@ def _measurements(options: argparse.Namespace, file: str) -> Measurements:
     )
 
 
-def run_identify(options: argparse.Namespace) -> None:
+def run_identify(options: argparse.Namespace) -> int:
     file = model_file("paam-wire-cutting.csv") if options.example else options.file
     check_outputs(_outputs(options), [file, options.material])
     measurements = _measurements(options, os.fspath(file))
@@ -188,6 +189,7 @@ def run_identify(options: argparse.Namespace) -> None:
     }
     record |= identification_record(fit, material)
     print_record(options, record, identification_text)
+    return DOUBTED if measurements.warnings else 0
 
 
 def _material(options: argparse.Namespace) -> Material:

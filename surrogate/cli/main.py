@@ -110,7 +110,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, or 2 after bad input, with the reason in one line on the standard error stream.
+        0, or 2 after bad input, with the reason in one line on the standard error stream, or 3
+        where an answer was printed, but a doubt that is printed with it says not to use it: a
+        measured quantity is implausible, or records have no steady force.
 
     Examples
     --------

@@ -12,7 +12,7 @@ import numpy as np
 from surrogate.basics.figures import picture_file
 from surrogate.basics.files import check_outputs, write_csv
 from surrogate.basics.records import number, table
-from surrogate.cli.common import Record, print_record, quantity
+from surrogate.cli.common import DOUBTED, Record, print_record, quantity
 from surrogate.errors import InputError
 from surrogate.reading.cuts import Cut, cuts_of, measurements_of, record_files
 from surrogate.reading.units import FORCE, LENGTH, NUMBER
@@ -101,7 +101,7 @@ def run_steady(options: argparse.Namespace) -> int:
         "picture": options.plot,
     }
     print_record(options, record, _text)
-    return 3 if record["not_steady"] else 0
+    return DOUBTED if record["not_steady"] else 0
 
 
 _STEADY = (

@@ -164,7 +164,8 @@ def steady_force(
         raise InputError(
             f"there are {np.count_nonzero(inside)} samples from {1e3 * first:.4g} to "
             f"{1e3 * last:.4g} mm, where the record is from {1e3 * travel[0]:.4g} to "
-            f"{1e3 * travel[-1]:.4g} mm; choose a range with {_FEWEST_IN_RANGE} or more."
+            f"{1e3 * travel[-1]:.4g} mm; choose a range with {_FEWEST_IN_RANGE} or more "
+            "(a number without its unit is in metres)."
         )
     return _summary(travel, net, inside, (first, last), contact, constant, part)
 

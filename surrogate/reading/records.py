@@ -302,7 +302,8 @@ def _beginning(force: NDArray[np.float64]) -> float:
 
 def _larger_side(force: NDArray[np.float64], start: float) -> str:
     """Return the sign of the forces that are farther from a start, "" where both are far."""
-    below, above = (abs(float(x) - start) for x in np.percentile(force, (1.0, 99.0)))
+    low, high = (float(x) for x in np.percentile(force, (1.0, 99.0)))
+    below, above = max(start - low, 0.0), max(high - start, 0.0)
     if min(below, above) > 0.5 * max(below, above):
         return ""
     return "positive" if above >= below else "negative"

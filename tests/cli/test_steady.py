@@ -119,3 +119,12 @@ def test_the_figure_has_every_record(folder, tmp_path, capsys):
     text = picture.read_text()
     assert text.count("wire_0.") == 7
     assert text.count("not steady") == 1
+
+
+def test_an_answer_that_should_not_be_used_has_the_exit_code_3(tmp_path, capsys):
+    file = tmp_path / "cuts.csv"
+    table = "wire_diameter_{},force_per_thickness_N_per_m\n0.1,2.9\n0.2,4.7\n0.4,7.8\n0.8,13.7\n"
+    for unit, code in (("mm", 0), ("m", 3)):
+        file.write_text(table.format(unit))
+        assert main(["identify", str(file), "--shear-modulus", "685Pa"]) == code
+    assert "likely mm given as m" in " ".join(capsys.readouterr().out.split())

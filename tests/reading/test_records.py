@@ -316,3 +316,13 @@ def test_any_file_is_read_or_refused(tmp_path, content):
         assert len(record.force) == len(record.displacement) >= 2
         assert np.all(np.isfinite(record.force))
         assert np.all(np.isfinite(record.displacement))
+
+
+def test_a_load_cell_that_was_not_zeroed_leaves_the_sign_clear(tmp_path):
+    file = tmp_path / "offset.csv"
+    x = np.linspace(0.0, 10.0, 100)
+    for offset in (1.0, -1.0):
+        force = offset + np.sign(offset) * 0.1 * np.minimum(x, 1.0)
+        rows = "\n".join(f"{a:.3f},{b:.4f}" for a, b in zip(x, force, strict=True))
+        file.write_text(f"Extension (mm),Load (N)\n{rows}\n")
+        assert read_record(file).force[-1] == pytest.approx(1.1)
