@@ -58,12 +58,15 @@ if TYPE_CHECKING:
     from surrogate.maps.points import MapPoints
     from surrogate.reading.material import Material, read_material
     from surrogate.reading.measurements import Measurements, read_measurements
+    from surrogate.reading.plateau import SteadyForce, steady_force
+    from surrogate.reading.records import CutRecord, read_record, read_records
     from surrogate.scene import Scene
 
 __all__ = [
     "FORCE_MODELS",
     "AccuracyError",
     "ContactFunctions",
+    "CutRecord",
     "CuttingForce",
     "Design",
     "DomainError",
@@ -77,6 +80,7 @@ __all__ = [
     "Regime",
     "RegimeMap",
     "Scene",
+    "SteadyForce",
     "UncertainForce",
     "UnknownModelError",
     "WirecutError",
@@ -103,8 +107,11 @@ __all__ = [
     "propagate",
     "read_material",
     "read_measurements",
+    "read_record",
+    "read_records",
     "regime_map",
     "relative_force",
+    "steady_force",
     "transition_radius",
     "wear_transition_radius",
 ]
@@ -132,6 +139,8 @@ _MODULES = {
     "maps.points": "MapPoints",
     "reading.material": "Material read_material",
     "reading.measurements": "Measurements read_measurements",
+    "reading.plateau": "SteadyForce steady_force",
+    "reading.records": "CutRecord read_record read_records",
     "scene": "Scene",
 }
 _HOME = {name: module for module, names in _MODULES.items() for name in names.split()}

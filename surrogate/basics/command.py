@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Callable, Collection
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from surrogate.errors import InputError, WirecutError
 
@@ -14,11 +15,17 @@ __all__ = ["OneLineParser", "complete", "run_command"]
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """A parser whose complaints take one line."""
+    """A parser whose complaints take one line, and to which -1.6J/m2 is a value and no option."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        self._negative_number_matcher = re.compile(r"-\.?[0-9]")
 
     def error(self, message: str) -> NoReturn:
         """Refuse the arguments."""
-        raise InputError(f"{message}; see '{self.prog} --help'.")
+        unit = re.fullmatch(r"unrecognized arguments: ([^\W\d_]{1,3}(?:[/^*²³\w]{0,5}))", message)
+        hint = f" (a unit goes with its number, as in 685{unit[1]})" if unit else ""
+        raise InputError(f"{message}{hint}; see '{self.prog} --help'.")
 
 
 def complete(parser: argparse.ArgumentParser) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from surrogate.basics.checks import shown
 from surrogate.basics.extras import require_extra
-from surrogate.basics.files import file_name
+from surrogate.basics.files import file_name, written_whole
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:
@@ -153,10 +153,8 @@ def save_figure(figure: Figure, file: str | PathLike[str]) -> None:
         If the format is unknown or the file cannot be written.
     """
     name = picture_file(file)
-    try:
-        _write(figure, name, PurePath(name).suffix.lower())
-    except OSError as error:
-        raise InputError(f"{name} cannot be written ({error.strerror}); choose another.") from None
+    with written_whole(name) as temporary:
+        _write(figure, temporary, PurePath(name).suffix.lower())
 
 
 def write_svg(figure: Figure, stream: Any) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import io
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from functools import cache
 from os import PathLike
 from pathlib import Path
@@ -18,6 +19,7 @@ from surrogate.basics.checks import shown
 from surrogate.errors import InputError
 
 __all__ = [
+    "check_outputs",
     "checksum_line",
     "column_name",
     "file_name",
@@ -25,6 +27,7 @@ __all__ = [
     "models_folder",
     "read_archive",
     "write_csv",
+    "written_whole",
 ]
 
 _PACKAGE = Path(__file__).resolve().parent.parent
@@ -186,6 +189,110 @@ def column_name(quantity: str, unit: str) -> str:
     return f"{quantity}_{spelled}" if spelled else quantity
 
 
+@contextmanager
+def written_whole(file: str | PathLike[str]) -> Iterator[str]:
+    """Give the name of a new file beside another, which it replaces once it is whole.
+
+    Whatever goes wrong meanwhile, the other stays as it was and nothing is left beside it. What
+    is no ordinary file, such as /dev/stdout, is written directly.
+
+    Parameters
+    ----------
+    file : str or path-like
+        What to write.
+
+    Yields
+    ------
+    str
+        The name to write to, with the same ending.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with written_whole(f"{folder}/x.csv") as name:
+    ...         _ = Path(name).write_text("a,b")
+    ...     print(*os.listdir(folder))
+    x.csv
+    """
+    name = file_name(file)
+    try:
+        target = os.path.realpath(name)
+        if os.path.exists(target) and not os.path.isfile(target):
+            yield name
+            return
+        folder, last = os.path.split(target)
+        temporary = os.path.join(folder, f".{os.getpid()}-{last}")
+        try:
+            yield temporary
+            if os.path.exists(target):
+                os.chmod(temporary, os.stat(target).st_mode & 0o7777)
+            os.replace(temporary, target)
+        finally:
+            with suppress(OSError):
+                os.remove(temporary)
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name} cannot be written ({reason}); choose another.") from None
+
+
+def check_outputs(
+    outputs: Mapping[str, str | None], inputs: Iterable[str | PathLike[str] | None] = ()
+) -> None:
+    """Refuse outputs that would overwrite an input or each other.
+
+    Parameters
+    ----------
+    outputs : mapping of str to str or None
+        Files to write by the options that name them.
+    inputs : iterable of str or None
+        Files that are read.
+
+    Raises
+    ------
+    InputError
+        If two of them are one file, by whatever names and links.
+
+    Examples
+    --------
+    >>> check_outputs({"--csv": "a.csv", "--plot": "./a.csv"})
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: --csv a.csv and --plot ./a.csv are one file; give them two names.
+    """
+    read = {_identity(file): file_name(file) for file in inputs if file}
+    written: dict[object, str] = {}
+    for option, file in outputs.items():
+        if not file:
+            continue
+        identity, shown_name = _identity(file), f"{option} {file}"
+        if identity in read:
+            raise InputError(
+                f"{shown_name} would overwrite what is read, {read[identity]}; "
+                "give it another name."
+            )
+        if identity in written:
+            raise InputError(
+                f"{written[identity]} and {shown_name} are one file; give them two names."
+            )
+        written[identity] = shown_name
+
+
+def _identity(file: str | PathLike[str]) -> object:
+    try:
+        status = os.stat(file)
+        return status.st_dev, status.st_ino
+    except (OSError, ValueError):
+        return os.path.normcase(os.path.realpath(file))
+
+
 def write_csv(
     file: str | PathLike[str],
     columns: Mapping[tuple[str, str], Any],
@@ -212,11 +319,9 @@ def write_csv(
     lines = [*(f"# {line}" for line in about), ",".join(map(_cell, names))]
     lines += _rows(arrays)
     path = file_name(file)
-    try:
-        with open(path, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write("\n".join(lines) + "\n")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written ({error.strerror}); choose another.") from None
+    content = ("\n".join(lines) + "\n").encode()
+    with written_whole(path) as temporary:
+        Path(temporary).write_bytes(content)
 
 
 def _rows(arrays: Sequence[Any]) -> list[str]:

@@ -17,6 +17,9 @@ __all__ = ["wire_rows"]
 
 Record: TypeAlias = "dict[str, Any]"
 
+DOUBTED = 3
+"""Exit code where an answer was printed, but a doubt says that it should not be used."""
+
 
 def wire_rows(**columns: Any) -> list[Record]:
     """Return one record for each wire out of numbers and arrays that broadcast together."""

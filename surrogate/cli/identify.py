@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any
 
-from surrogate.basics.files import model_file
+from surrogate.basics.files import check_outputs, model_file
 from surrogate.cli.common import (
+    DOUBTED,
     add_friction_and_stiffening,
     add_model_option,
     print_record,
     quantity,
 )
 from surrogate.cli.identification_text import identification_record, identification_text
+from surrogate.cli.steady import add_record_options, cuts_by_options
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
 from surrogate.inference.inputs import WITHOUT_MODULUS
+from surrogate.reading.cuts import measurements_of
 from surrogate.reading.material import Material, read_material
-from surrogate.reading.measurements import read_measurements
+from surrogate.reading.measurements import Measurements, read_measurements
 from surrogate.reading.units import (
     ENERGY_DENSITY,
     LENGTH,
@@ -77,7 +81,12 @@ def facts(options: argparse.Namespace) -> dict[str, Any]:
 def add_identify_options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     source = command.add_mutually_exclusive_group(required=True)
-    source.add_argument("file", nargs="?", metavar="FILE", help="table of measurements (CSV)")
+    source.add_argument(
+        "file",
+        nargs="?",
+        metavar="FILE",
+        help="table of measurements (CSV, .xlsx), or a folder of records as 'wirecut steady' reads",
+    )
     source.add_argument(
         "--example", action="store_true", help="use the shipped gel of the paper (PAAm)"
     )
@@ -132,11 +141,43 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_fact_options(command, quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
     add("--csv", metavar="TABLE", help="write the fitted line and its band")
+    add("--thickness", type=quantity(LENGTH), metavar="T", help="of the sample, for forces in N")
+    add("--decimal", metavar="SIGN", help="decimal sign of FILE: . or ,")
+    add("--delimiter", metavar="SIGN", help="what separates columns: , ; tab | or blank")
+    add("--encoding", metavar="NAME", help="encoding of FILE, such as utf-16")
+    add_record_options(command)
 
 
-def run_identify(options: argparse.Namespace) -> None:
+_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "columns")
+
+
+def _outputs(options: argparse.Namespace) -> dict[str, str | None]:
+    return {"--plot": options.plot, "--csv": options.csv}
+
+
+def _measurements(options: argparse.Namespace, file: str) -> Measurements:
+    """Return the forces of a table or, of a folder, those of its records."""
+    if os.path.isdir(file):
+        return measurements_of(cuts_by_options(options, [file], _outputs(options))[0])
+    unused = [name for name in _OF_RECORDS if getattr(options, name) is not None]
+    if unused:
+        listed = ", ".join({"start": "--from", "end": "--to"}.get(x, f"--{x}") for x in unused)
+        raise InputError(f"{listed}: for a folder of records, but {file} is a table; leave it out.")
+    return read_measurements(
+        file,
+        options.thickness,
+        decimal=options.decimal,
+        delimiter=options.delimiter,
+        encoding=options.encoding,
+    )
+
+
+def run_identify(options: argparse.Namespace) -> int:
     file = model_file("paam-wire-cutting.csv") if options.example else options.file
-    measurements = read_measurements(file)
+    check_outputs(_outputs(options), [file, options.material])
+    measurements = _measurements(options, os.fspath(file))
+    for note in measurements.notes:
+        print(f"note: {note}", file=sys.stderr)
     material = _material(options)
     modulus, modulus_std = _modulus(options, material)
     if modulus is None and needs_modulus(options.model, material.friction_coefficient):
@@ -176,10 +217,17 @@ def run_identify(options: argparse.Namespace) -> None:
         from surrogate.identification.curves import write_curve
 
         write_curve(fit, options.csv)
-    record = {"file": os.path.basename(file), "forces": origin, "picture": options.plot}
+    name = os.path.basename(os.path.normpath(file))
+    record = {
+        "file": name,
+        "notes": list(measurements.notes),
+        "forces": origin,
+        "picture": options.plot,
+    }
     record |= identification_record(fit, material)
     record["verbose"] = options.verbose
     print_record(options, record, identification_text)
+    return DOUBTED if measurements.warnings else 0
 
 
 def _material(options: argparse.Namespace) -> Material:

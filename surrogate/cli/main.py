@@ -19,6 +19,7 @@ from surrogate.cli.force import (
     run_regime,
 )
 from surrogate.cli.identify import add_identify_options, run_identify
+from surrogate.cli.steady import add_steady_options, run_steady
 
 _UNITS = """\
 Quantities carry their unit, without a space or in quotes: 0.2mm, "0.2 mm", 7.75kPa, 1.6J/m2.
@@ -27,6 +28,7 @@ A number alone is in SI units (m, Pa, J/m2)."""
 _DESCRIPTIONS = {
     "wirecut": "Wire cutting of soft solids: forces, toughness and regimes (arXiv:2412.02021).",
     "force": "Steady cutting force per sample thickness of each wire, and what it is made of.",
+    "steady": "Steady force of every record of a testing machine: the plateau after cutting began.",
     "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
@@ -45,6 +47,21 @@ example:
 example:
   wirecut force --shear-modulus 685Pa --toughness 1.6J/m2 \\
     --wear-strength 7.75kPa --wire-radius 0.2mm 0.4mm
+""",
+    "steady": f"""\
+FILE is an export of a testing machine (Instron, Zwick, TA.XT, MTS, Shimadzu or plain columns; text
+or .xlsx), or a folder of such files. How each was understood is printed: columns, units, sign.
+The steady force is the mean along the longest stretch without trend after contact; what has none
+is named with the reason, and the exit code is then 3.
+
+A pattern tells the wire from a file's name: {{diameter}} or {{radius}} before its unit,
+{{trial}}, {{sample}}, {{thickness}}, and {{}} for whatever.
+{_UNITS}
+
+examples:
+  wirecut steady cuts/ --thickness 20mm --name 'wire_{{diameter}}mm_{{trial}}' \\
+    --out cuts.csv --plot steady.pdf
+  wirecut steady gel.csv --thickness 20mm --from 8mm --to 15mm
 """,
     "identify": f"""\
 FILE is a table with commas, whose header names quantity and unit, for instance cuts.csv:
@@ -93,7 +110,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, or 2 after bad input, with the reason in one line on the standard error stream.
+        0, or 2 after bad input, with the reason in one line on the standard error stream, or 3
+        where an answer was printed, but a doubt that is printed with it says not to use it: a
+        measured quantity is implausible, or records have no steady force.
 
     Examples
     --------
@@ -143,6 +162,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     for name, add_options, run in (
         ("force", add_force_options, run_force),
+        ("steady", add_steady_options, run_steady),
         ("identify", add_identify_options, run_identify),
         ("regime", add_regime_options, run_regime),
         ("map", lambda command: cli_map.add_options(command, quantity), run_map),

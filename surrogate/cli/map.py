@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.basics.files import model_file
+from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
 from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
@@ -156,6 +156,13 @@ def add_options(
 
 def map_record(options: argparse.Namespace) -> dict[str, Any]:
     """Make the map, write what is wanted, and return what to print."""
+    check_outputs(
+        {
+            "--out": options.out,
+            "--csv": options.csv,
+            "--boundaries-csv": options.boundaries_csv,
+        }
+    )
     made = run_map(options)
     preset = PRESETS.get(options.preset)
     if options.out:

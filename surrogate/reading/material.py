@@ -20,7 +20,7 @@ from surrogate.reading.units import (
     TOUGHNESS,
     Dimension,
     parse_number,
-    quantity_and_power,
+    quantity_and_unit,
 )
 
 __all__ = ["Material", "read_material"]
@@ -129,10 +129,10 @@ def read_material(path: str | PathLike[str]) -> Material:
                     f"{file}: schema is {value!r} where only {_MATERIAL_SCHEMA!r} is known."
                 )
             continue
-        quantity, power = quantity_and_power(f"{file}, key", key, PROPERTIES)
+        quantity, unit = quantity_and_unit(f"{file}, key", key, PROPERTIES)
         if quantity in properties:
             raise InputError(f"{file}, key ({key}) gives {quantity} again; keep one of them.")
-        number = parse_number(value, power) if isinstance(value, _Literal) else None
+        number = parse_number(value, unit) if isinstance(value, _Literal) else None
         if number is None or not 0.0 <= number < np.inf:
             raise InputError(
                 f"{file}, key ({key}): {value!r:.40} is not a number of 0 or more; "

@@ -1,39 +1,28 @@
-"""Measurements out of tables whose names carry the units."""
+"""Measurements out of tables, as laboratories have them."""
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from os import PathLike
-from typing import BinaryIO
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.files import file_name, opened
+from surrogate.basics.checks import SMALLEST, Quantity, one_number
 from surrogate.errors import InputError
 from surrogate.reading import plausibility
+from surrogate.reading.headings import Heading
 from surrogate.reading.plausibility import doubts
-from surrogate.reading.units import (
-    LENGTH,
-    LINE_FORCE,
-    Dimension,
-    parse_number,
-    quantity_and_power,
-)
+from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheet
+from surrogate.reading.wire_table import COLUMNS, Table, find_table
 
-__all__ = ["Measurements", "read_measurements"]
+__all__ = ["COLUMNS", "Measurements", "read_measurements"]
 
-_LONGEST_LINE = 10_000
+THICKNESS = Quantity("thickness", "m", "give the sample's thickness in metres", lower=SMALLEST)
 
-COLUMNS: dict[str, Dimension] = {
-    "wire_radius": LENGTH,
-    "wire_diameter": LENGTH,
-    "force_per_thickness": LINE_FORCE,
-    "force_std": LINE_FORCE,
-}
-"""Quantities that a table of measurements may hold, one column each."""
+AGREE = 0.02
+"""How far a force over its thickness may be from the force per thickness beside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +37,10 @@ class Measurements:
         F_ss/T [N/m].
     force_std : ndarray, shape (n,), or None
         Standard error of each force [N/m].
+    samples : tuple of str, length n, or None
+        Name of the sample that each was measured on, where the table has such a column.
+    notes : tuple of str
+        What of the table was not used or how it was taken, in words.
 
     Examples
     --------
@@ -59,6 +52,8 @@ class Measurements:
     wire_radius: NDArray[np.float64]
     force: NDArray[np.float64]
     force_std: NDArray[np.float64] | None = None
+    samples: tuple[str, ...] | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -69,19 +64,34 @@ class Measurements:
         )
 
 
-def read_measurements(path: str | PathLike[str]) -> Measurements:
-    """Read a table of measurements from a CSV file.
+def read_measurements(
+    path: Any,
+    thickness: float | None = None,
+    *,
+    decimal: str | None = None,
+    delimiter: str | None = None,
+    encoding: str | None = None,
+) -> Measurements:
+    """Read a table of measurements from a text file, a spreadsheet or a data frame.
 
     The header names quantity and unit of each column: ``wire_radius_<unit>`` or
-    ``wire_diameter_<unit>`` (one of the two; m, cm, mm, um), ``force_per_thickness_<unit>``
-    and, where known, its standard error ``force_std_<unit>`` (N_per_m, mN_per_m, kN_per_m,
-    N_per_cm, N_per_mm, mN_per_mm, J_per_m2, ...). Values are separated by commas and are
-    positive numbers with a decimal point. Lines that are empty or start with ``#`` are skipped.
+    ``wire_diameter_<unit>`` (m, cm, mm, um, in), ``force_per_thickness_<unit>`` (N_per_m,
+    mN_per_mm, J_per_m2, ...) or ``force_<unit>`` (N, mN, gf, ...) with ``thickness_<unit>``,
+    and, where known, the force's standard error ``force_std_<unit>``. Capitals, blanks, units in
+    brackets or in a row below the names, and usual names such as ``d (mm)`` and ``F_ss/T [N/m]``
+    are understood. Repeats stand in rows, or in columns that are numbered (``trial1_N_per_m``).
+    Columns that are not known are not used, and rows without a radius or a force are skipped;
+    the `notes` name both. Lines that are empty or start with ``#`` are left out.
 
     Parameters
     ----------
-    path : str or path-like
-        The file, UTF-8 text with or without a byte-order mark.
+    path : str, path-like or pandas.DataFrame
+        Text with commas, semicolons or tabs, in UTF-8, UTF-16 or CP1252; or .xlsx, of which the
+        first sheet that is not empty is read; or a data frame.
+    thickness : float, optional
+        Thickness of the sample [m], where forces are not divided by it and no column has it.
+    decimal, delimiter, encoding : str, optional
+        Those of a text file; by default they are read off it.
 
     Returns
     -------
@@ -91,7 +101,7 @@ def read_measurements(path: str | PathLike[str]) -> Measurements:
     Raises
     ------
     InputError
-        If the file cannot be read or anything in it is missing, twice there, unknown or not a
+        If the file cannot be read or anything in it is missing, twice there, ambiguous or not a
         positive number; the message names file, line and column and says what to mend.
 
     Examples
@@ -103,121 +113,154 @@ def read_measurements(path: str | PathLike[str]) -> Measurements:
     >>> print(measurements.force)
     [ 5.475  8.11  10.125 13.69  16.17 ]
     """
-    file = file_name(path)
-    with opened(file) as stream:
-        columns = _read_table(file, stream)
-    radius = columns.get("wire_radius")
-    if radius is None:
-        radius = columns["wire_diameter"] / 2.0
-    return Measurements(radius, columns["force_per_thickness"], columns.get("force_std"))
+    if thickness is not None:
+        thickness = one_number(THICKNESS, thickness)
+    sheet = read_sheet(path, encoding, delimiter, decimal)
+    return _measurements(*find_table(sheet), thickness)
 
 
-@dataclass(frozen=True)
-class _Column:
-    """One column of an open table: how to name it in errors, read it, and what it holds."""
-
-    number: int
-    name: str
-    quantity: str
-    power: int
-    values: array[float] = field(default_factory=lambda: array("d"))
-
-
-def _read_table(file: str, stream: BinaryIO) -> dict[str, NDArray[np.float64]]:
-    rows = _rows(file, stream)
-    first = next(rows, None)
-    if first is None:
+def _measurements(sheet: Sheet, table: Table, thickness: float | None) -> Measurements:
+    reader = _Reader(sheet, table, thickness)
+    lines = [line for row in table.rows for line in reader.lines(row)]
+    if not lines:
         raise InputError(
-            f"{file} is empty; write a header such as "
-            "wire_radius_mm,force_per_thickness_N_per_m and one line a wire."
+            f"{sheet.place(table.header)} is a header without measurements; "
+            f"write one line a wire{'; ' + reader.skipped[0] if reader.skipped else ''}."
         )
-    header_line, names = first
-    columns = _read_header(f"{file}, line {header_line}", names)
-    for line, cells in rows:
-        if len(cells) != len(columns):
+    radius, force, std, samples = zip(*lines, strict=True)
+    different = tuple(dict.fromkeys(samples))
+    notes = [*table.notes, *reader.skipped]
+    if table.sample is not None and len(different) > 1:
+        notes.append(f"{sheet.file}: {len(different)} samples together: {', '.join(different)}")
+    return Measurements(
+        np.array(radius),
+        np.array(force),
+        np.array(std) if reader.std else None,
+        samples if table.sample is not None else None,
+        tuple(notes),
+    )
+
+
+class _Reader:
+    """Reads the lines of a table; what it skips is named in `skipped`."""
+
+    def __init__(self, sheet: Sheet, table: Table, thickness: float | None) -> None:
+        self.sheet, self.table, self.option = sheet, table, thickness
+        self.skipped: list[str] = []
+        columns = table.columns
+        self.wire = (columns.get("wire_radius") or columns["wire_diameter"])[0]
+        self.forces = columns.get("force_per_thickness") or columns["force"]
+        self.std = next((columns[q][0] for q in ("force_std", "total_std") if q in columns), None)
+        self.last = max(one.number for listed in columns.values() for one in listed)
+        if self.std and len(self.forces) > 1:
+            table.notes.append(f"{sheet.file}: not used beside several trials: {self.std}")
+            self.std = None
+        elif self.std and "std" not in self.std.name:
+            table.notes.append(
+                f"{sheet.file}: {self.std} is taken for the standard error of each force; what is "
+                "the scatter of m cuts must be divided by the square root of m"
+            )
+        if "force_per_thickness" in columns and "force" in columns:
+            unused = ", ".join(map(str, columns["force"]))
+            table.notes.append(f"{sheet.file}: not used beside force per thickness: {unused}")
+
+    def lines(self, row: Row) -> Iterator[tuple[float, float, float, str]]:
+        """Yield radius, force, its standard error and the sample of each force in a row."""
+        row = self._whole(row)
+        if not any(row.cells[one.number - 1] for one in (self.wire, *self.forces)):
+            self._skip(row, self.wire, "has neither a wire nor a force")
+            return
+        radius = self._positive(row, self.wire)
+        if self.wire.quantity == "wire_diameter" and radius is not None:
+            radius /= 2.0
+        sample = row.cells[self.table.sample] if self.table.sample is not None else ""
+        std = self._over_thickness(row, self.std) if self.std else np.inf
+        for one in self.forces:
+            force = self._over_thickness(row, one)
+            if radius is None or force is None or std is None:
+                gap = self.wire if radius is None else one if force is None else self.std
+                self._skip(row, gap, "is empty")
+            else:
+                self._compare(row, force)
+                yield radius, force, std, sample
+
+    def _whole(self, row: Row) -> Row:
+        width, cells = self.table.width, row.cells
+        if len(cells) < self.last or any(cells[width:]):
             values = "1 value" if len(cells) == 1 else f"{len(cells)} values"
             raise InputError(
-                f"{file}, line {line} has {values} where the header names {len(columns)} columns; "
-                "give one a column, with a decimal point where there is a decimal comma."
+                f"{self.sheet.place(row)} has {values} where the header names {width} columns; "
+                "give one a column, and where commas separate columns no decimal comma."
             )
-        for column, cell in zip(columns, cells, strict=True):
-            value = parse_number(cell, column.power)
-            if value is None or not 0.0 < value < np.inf:
-                place = f"{file}, line {line}, column {column.number} ({column.name})"
-                raise _refused(place, column.quantity, cell, value)
-            column.values.append(value)
-    if not columns[0].values:
-        raise InputError(
-            f"{file}, line {header_line} is a header without measurements; write one line a wire."
-        )
-    return {column.quantity: np.array(column.values) for column in columns}
+        return Row(row.line, cells + [""] * (width - len(cells)))
 
+    def _skip(self, row: Row, gap: Heading | None, why: str) -> None:
+        where = f", {gap}" if why == "is empty" else ""
+        self.skipped.append(f"{self.sheet.place(row)}{where} {why}: skipped")
 
-def _rows(file: str, stream: BinaryIO) -> Iterator[tuple[int, list[str]]]:
-    """Yield line number and cells, one bounded line in memory at a time."""
-    line = 0
-    while raw := stream.readline(_LONGEST_LINE):
-        line += 1
-        place = f"{file}, line {line}"
-        if len(raw) == _LONGEST_LINE:
-            raise InputError(f"{place} has {_LONGEST_LINE} characters or more; is it a CSV table?")
-        try:
-            text = raw.decode("utf-8-sig" if line == 1 else "utf-8").strip()
-        except UnicodeDecodeError as error:
+    def _over_thickness(self, row: Row, one: Heading) -> float | None:
+        value = self._positive(row, one)
+        if value is None or one.quantity in ("force_per_thickness", "force_std"):
+            return value
+        return value / self._thickness(row, one)
+
+    def _thickness(self, row: Row, one: Heading) -> float:
+        columns = self.table.columns.get("thickness")
+        stated = self._positive(row, columns[0]) if columns else None
+        if stated is None and self.table.thickness and not columns:
+            stated = self.table.thickness[0]
+        if stated is None and self.option is None:
             raise InputError(
-                f"{place}, byte {error.start + 1} is not UTF-8 text; save the table as 'CSV UTF-8'."
-            ) from None
-        if not text or text.lstrip('"').startswith("#"):
-            continue
-        for mark, name in ((";", "semicolon"), ("\t", "tab")):
-            if mark in text:
-                raise InputError(
-                    f"{place}, character {text.index(mark) + 1} is a {name}; separate columns by "
-                    "commas and write decimals with a point."
-                )
-        yield line, [_unquoted(cell) for cell in text.split(",")]
-
-
-def _unquoted(cell: str) -> str:
-    cell = cell.strip()
-    return cell[1:-1].strip() if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
-
-
-def _read_header(place: str, names: list[str]) -> list[_Column]:
-    columns: dict[str, _Column] = {}
-    for number, name in enumerate(names, start=1):
-        quantity, power = quantity_and_power(f"{place}, column {number}", name, COLUMNS)
-        if quantity in columns:
-            raise InputError(
-                f"{place}, column {number} ({name}) gives {quantity} again after column "
-                f"{columns[quantity].number} ({columns[quantity].name}); keep one of them."
+                f"{self.sheet.place(row)}, {one} is a force, and the sample's thickness is "
+                "missing; give it with --thickness 20mm (thickness= in Python), or in a column "
+                "thickness_mm."
             )
-        columns[quantity] = _Column(number, name, quantity, power)
-    if ("wire_radius" in columns) == ("wire_diameter" in columns):
-        state = "both a radius and a diameter" if "wire_radius" in columns else "no wire radius"
-        raise InputError(f"{place} names {state}; keep wire_radius_<unit> or wire_diameter_<unit>.")
-    if "force_per_thickness" not in columns:
-        raise InputError(
-            f"{place} names no force_per_thickness_<unit>; divide the steady force by the "
-            "sample's thickness and give it in one of the units N_per_m, mN_per_mm, J_per_m2."
-        )
-    return list(columns.values())
+        if stated is not None and self.option is not None and stated != self.option:
+            raise InputError(
+                f"{self.sheet.place(row)}: the table says that the sample is {1e3 * stated:g} mm "
+                f"thick, and the option {1e3 * self.option:g} mm; leave the option out or correct "
+                "one of them."
+            )
+        return stated if stated is not None else self.option or np.nan
+
+    def _compare(self, row: Row, force: float) -> None:
+        """Refuse a force over its thickness that is not the force per thickness beside it."""
+        columns = self.table.columns
+        if "force_per_thickness" not in columns or not {"force", "thickness"} <= set(columns):
+            return
+        if len(columns["force"]) > 1 or len(self.forces) > 1:
+            return
+        other = self._over_thickness(row, columns["force"][0])
+        if other is not None and abs(other - force) > AGREE * force:
+            raise InputError(
+                f"{self.sheet.place(row)} gives {force:g} N/m, but its force over its thickness is "
+                f"{other:g} N/m; correct one of them or delete the column."
+            )
+
+    def _positive(self, row: Row, one: Heading) -> float | None:
+        """Return a cell in SI units, None where it is empty, or raise an error with its place."""
+        cell = row.cells[one.number - 1]
+        if cell.casefold() in EMPTY:
+            return None
+        assert one.unit is not None
+        value = self.sheet.number(cell, one.unit)
+        place = f"{self.sheet.place(row)}, {one}"
+        if value is None:
+            sign = "point" if self.sheet.decimal == "." else "comma"
+            raise InputError(
+                f"{place}: {cell[:40]!r} is not a number; write digits with a decimal {sign}."
+            )
+        if not 0.0 < value < np.inf:
+            raise InputError(
+                f"{place}: {cell[:40]} is not a positive number within a computer's range; "
+                f"{_REMEDIES.get(one.quantity, 'correct it or delete the line')}."
+            )
+        return value
 
 
 _REMEDIES = {
     "force_per_thickness": "turn the sign if your machine counts compression as negative",
+    "force": "turn the sign if your machine counts compression as negative",
     "force_std": "delete the column where standard errors are not known",
+    "total_std": "delete the column where standard errors are not known",
 }
-
-
-def _refused(place: str, quantity: str, cell: str, value: float | None) -> InputError:
-    if not cell:
-        return InputError(f"{place} is empty; fill the gap or delete the line.")
-    if value is None:
-        return InputError(
-            f"{place}: {cell[:40]!r} is not a number; write digits with a decimal point."
-        )
-    return InputError(
-        f"{place}: {cell[:40]} is not a positive number within a computer's range; "
-        f"{_REMEDIES.get(quantity, 'correct it or delete the line')}."
-    )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from surrogate.errors import InputError
 
@@ -12,39 +13,109 @@ _NUMBER = (
     r"(?:[eE](?P<exponent>[+-]?[0-9]{1,4}))?"
 )
 _PLAIN_NUMBER = re.compile(_NUMBER)
-_QUANTITY = re.compile(_NUMBER + r"\s*(?P<unit>[^\W\d_].*)?", re.DOTALL)
+_QUANTITY = re.compile(_NUMBER + r"\s*(?P<unit>[^\W\d_].*|\".*)?", re.DOTALL)
+
+GRAVITY = 9.80665
+"""Standard gravity, by which a gram-force is what a gram weighs [m/s^2]."""
+
+
+class Unit(NamedTuple):
+    """A unit as a multiple of the SI unit: ten to a power, times a factor."""
+
+    power: int = 0
+    factor: float = 1.0
+
+
+SI = Unit()
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """A kind of quantity, and its units as powers of ten of the SI unit."""
+    """A kind of quantity, and its units as powers of ten of the SI unit or as other multiples."""
 
     name: str
     powers: dict[str, int]
+    others: dict[str, Unit] = field(default_factory=dict)
 
-    def power(self, unit: str) -> int | None:
-        """Power of ten of a unit, written as N/m or N_per_m, J/m2 or J/m^2; None if unknown."""
-        return self.powers.get(unit.replace("_per_", "/").replace("^", ""))
+    def unit(self, text: str) -> Unit | None:
+        """Return a unit by its spelling: N/m, N_per_m, N m^-1, J/m²; None if unknown.
+
+        Capitals matter (mN is no MN), but for those that can mean one thing only, such as MM.
+        """
+        spelled = _spelled(text)
+        for name in (spelled, _SYNONYMS.get(spelled.lower(), spelled)):
+            if name in self.powers:
+                return Unit(self.powers[name])
+            if name in self.others:
+                return self.others[name]
+        return None
 
     @property
     def remedy(self) -> str:
         """What to write at the command line."""
-        units = ", ".join(unit for unit in self.powers if unit.isascii())
+        units = ", ".join((*self.powers, *self.others))
         return f"write digits with a decimal point and {f'one of {units}' if units else 'no unit'}"
 
     def spellings(self, quantity: str) -> str:
         """What a quantity's name may be in a file."""
-        units = [unit.replace("/", "_per_") for unit in self.powers if unit.isascii()]
+        units = [unit.replace("/", "_per_") for unit in self.powers]
         return ", ".join(f"{quantity}_{unit}" if unit else quantity for unit in units)
+
+
+_SUPERSCRIPTS = str.maketrans(
+    {"²": "2", "³": "3", "¹": "1", "⁻": "-", "−": "-", "µ": "u", "μ": "u"}
+)
+_SYNONYMS = {
+    **{name: name for name in ("mm", "cm", "um", "in", "gf", "kgf", "lbf", "g", "kg", "s", "min")},
+    **{"kn": "kN", "n": "N", "kpa": "kPa", "n/mm": "N/mm", "n/m": "N/m"},
+    **{"kn/m": "kN/m", "n/cm": "N/cm", "gf/mm": "gf/mm", "gf/cm": "gf/cm"},
+    **{"inch": "in", "inches": "in", '"': "in", "zoll": "in", "lb": "lbf", "lbs": "lbf"},
+    **{"sec": "s", "sek": "s", "second": "s", "seconds": "s", "secs": "s", "sekunden": "s"},
+    **{"kp": "kgf", "pond": "gf", "newton": "N", "newtons": "N", "millinewton": "mN"},
+    **{"kilonewton": "kN", "gram": "g", "grams": "g", "gramm": "g", "meter": "m", "metre": "m"},
+    **{"millimeter": "mm", "millimetre": "mm", "millimeters": "mm", "micron": "um"},
+    **{"microns": "um", "micrometer": "um", "micrometre": "um", "minutes": "min", "msec": "ms"},
+}
+
+
+def _spelled(text: str) -> str:
+    """Return a unit's text in one spelling: N_per_m, N m-1 and N·m⁻¹ as N/m, J/m² as J/m2."""
+    text = text.strip().translate(_SUPERSCRIPTS)
+    text = re.sub(r"[_\s]*\bper\b[_\s]*|_per_", "/", text).replace("^", "").replace("**", "")
+    text = re.sub(r"[\s·*.]*\b([a-zA-Z]+)-([123])$", _divided, text)
+    return text.replace(" ", "")
+
+
+def _divided(match: re.Match[str]) -> str:
+    return f"/{match[1]}{match[2] if match[2] != '1' else ''}"
 
 
 _STRESS_POWERS = {"Pa": 0, "kPa": 3, "MPa": 6}
 _LINE_FORCE_POWERS = {"N/m": 0, "mN/m": -3, "kN/m": 3, "N/cm": 2, "N/mm": 3, "mN/mm": 0}
 _SURFACE_ENERGY_POWERS = {"J/m2": 0, "mJ/m2": -3, "kJ/m2": 3}
+_INCH, _POUND = 0.0254, 0.45359237 * GRAVITY
+_WEIGHTS = {
+    "gf": Unit(-3, GRAVITY),
+    "g": Unit(-3, GRAVITY),
+    "kgf": Unit(0, GRAVITY),
+    "kg": Unit(0, GRAVITY),
+    "lbf": Unit(0, _POUND),
+    "ozf": Unit(0, _POUND / 16.0),
+}
+_LINE_WEIGHTS = {
+    "gf/mm": Unit(0, GRAVITY),
+    "gf/cm": Unit(-1, GRAVITY),
+    "kgf/m": Unit(0, GRAVITY),
+    "lbf/in": Unit(0, _POUND / _INCH),
+}
 
-LENGTH = Dimension("a length", {"m": 0, "cm": -2, "mm": -3, "um": -6, "µm": -6, "μm": -6})
+LENGTH = Dimension("a length", {"m": 0, "cm": -2, "mm": -3, "um": -6}, {"in": Unit(0, _INCH)})
+FORCE = Dimension("a force", {"N": 0, "mN": -3, "uN": -6, "cN": -2, "kN": 3}, _WEIGHTS)
+TIME = Dimension("a time", {"s": 0, "ms": -3}, {"min": Unit(0, 60.0), "h": Unit(0, 3600.0)})
 STRESS = Dimension("a stress", _STRESS_POWERS)
-LINE_FORCE = Dimension("a force per thickness", _LINE_FORCE_POWERS | _SURFACE_ENERGY_POWERS)
+LINE_FORCE = Dimension(
+    "a force per thickness", _LINE_FORCE_POWERS | _SURFACE_ENERGY_POWERS, _LINE_WEIGHTS
+)
 TOUGHNESS = Dimension("a toughness", _SURFACE_ENERGY_POWERS | _LINE_FORCE_POWERS)
 ENERGY_DENSITY = Dimension(
     "an energy per volume", {"J/m3": 0, "kJ/m3": 3, "MJ/m3": 6} | _STRESS_POWERS
@@ -52,15 +123,15 @@ ENERGY_DENSITY = Dimension(
 NUMBER = Dimension("a plain number", {"": 0})
 
 
-def parse_number(text: str, power: int = 0) -> float | None:
-    """Read a decimal number times a power of ten, rounded once; None if it is not a number.
+def parse_number(text: str, unit: Unit = SI) -> float | None:
+    """Read a decimal number times a unit, a power of ten rounded once; None if it is not a number.
 
     Parameters
     ----------
     text : str
         Digits with a decimal point, optionally a sign and an exponent.
-    power : int, default 0
-        Power of ten to multiply with.
+    unit : Unit, optional
+        What to multiply with.
 
     Returns
     -------
@@ -69,13 +140,13 @@ def parse_number(text: str, power: int = 0) -> float | None:
 
     Examples
     --------
-    >>> parse_number("0.21", -3)
+    >>> parse_number("0.21", Unit(-3))
     0.00021
     >>> parse_number("0,21") is None
     True
     """
     match = _PLAIN_NUMBER.fullmatch(text)
-    return _scaled(match, power) if match else None
+    return _scaled(match, unit) if match else None
 
 
 def parse_quantity(text: str, dimension: Dimension) -> float:
@@ -104,26 +175,26 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     0.0002
     """
     match = _QUANTITY.fullmatch(text.strip())
-    power = dimension.power(match["unit"]) if match and match["unit"] else 0
-    if match is None or power is None:
+    unit = dimension.unit(match["unit"]) if match and match["unit"] else SI
+    if match is None or unit is None:
         raise InputError(f"{text!r} is not {dimension.name}; {dimension.remedy}.")
-    return _scaled(match, power)
+    return _scaled(match, unit)
 
 
-def _scaled(match: re.Match[str], power: int) -> float:
-    return float(f"{match['mantissa']}e{int(match['exponent'] or 0) + power}")
+def _scaled(match: re.Match[str], unit: Unit) -> float:
+    value = float(f"{match['mantissa']}e{int(match['exponent'] or 0) + unit.power}")
+    return value * unit.factor
 
 
-def quantity_and_power(place: str, name: str, quantities: dict[str, Dimension]) -> tuple[str, int]:
-    """Split a name such as wire_radius_mm into its quantity and its unit's power of ten."""
+def quantity_and_unit(place: str, name: str, quantities: dict[str, Dimension]) -> tuple[str, Unit]:
+    """Split a name such as wire_radius_mm into its quantity and its unit."""
     if not name:
         raise InputError(f"{place} has no name; name its quantity and unit, or delete it.")
     for quantity in sorted(quantities, key=len, reverse=True):
         if name == quantity or name.startswith(quantity + "_"):
-            unit = name[len(quantity) + 1 :]
-            power = quantities[quantity].power(unit)
-            if power is not None:
-                return quantity, power
+            unit = quantities[quantity].unit(name[len(quantity) + 1 :])
+            if unit is not None:
+                return quantity, unit
             raise InputError(
                 f"{place} ({name}) does not end with a unit of {quantity}; "
                 f"write {quantities[quantity].spellings(quantity)}."

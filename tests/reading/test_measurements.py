@@ -83,9 +83,9 @@ def test_comments_empty_lines_byte_order_mark_and_windows_line_ends(write):
         ("", "cuts.csv", "is empty"),
         ("# only a comment\n\n", "cuts.csv", "is empty"),
         (HEADER, "line 1", "without measurements"),
-        ("wire_radius_mm,force_N\n1,2\n", "line 1, column 2 ('force_N')", "not known"),
-        ("wire_radius_mm,,\n1,2,3\n", "line 1, column 2", "has no name"),
-        ("wire_radius_inch,force_std_N_per_m\n", "line 1, column 1", "end with a unit"),
+        ("wire_radius_mm,force_N\n1,2\n", "line 2, column 2 (force_N)", "thickness is missing"),
+        ("wire_radius_mm,,\n1,2,3\n", "line 1", "column 2 ()"),
+        ("wire_radius_ell,force_std_N_per_m\n", "line 1, column 1", "end with a unit"),
         ("wire_radius,force_std_N_per_m\n", "line 1, column 1", "wire_radius_mm"),
         ("wire_radius_Pa,force_std_N_per_m\n", "line 1, column 1", "end with a unit"),
         ("#\n" + HEADER.strip() + ",wire_radius_um\n", "line 2, column 3", "again after column 1"),
@@ -93,7 +93,7 @@ def test_comments_empty_lines_byte_order_mark_and_windows_line_ends(write):
         (HEADER.strip() + ",wire_diameter_mm\n", "line 1", "both a radius and a diameter"),
         ("force_per_thickness_N_per_m\n1\n", "line 1", "no wire radius"),
         ("wire_radius_mm\n1\n", "line 1", "divide the steady force"),
-        (HEADER + "1,2\n1,\n", "line 3, column 2 (force_per_thickness_N_per_m)", "is empty"),
+        (HEADER + "1,\n", "line 2, column 2 (force_per_thickness_N_per_m)", "is empty"),
         (HEADER + "1,2\n1\n", "line 3", "1 value where the header names 2 columns"),
         (HEADER + "0,1,2,5\n", "line 2", "decimal comma"),
         (HEADER + "abc,2\n", "line 2, column 1", "'abc' is not a number"),
@@ -108,13 +108,9 @@ def test_comments_empty_lines_byte_order_mark_and_windows_line_ends(write):
         (HEADER + "1,-2\n", "line 2, column 2", "turn the sign"),
         (HEADER + "-1,2\n", "line 2, column 1", "correct it or delete the line"),
         (HEADER.strip() + ",force_std_N_per_m\n1,2,0\n", "line 2, column 3", "delete the column"),
-        ("radius,force\n1,2\n", "line 1, column 1", "and its unit, such as wire_radius_m, "),
-        (HEADER.replace(",", ";") + "0,1;2\n", "line 1, character 15", "semicolon"),
-        (HEADER + "0,1;2\n", "line 2, character 4", "semicolon"),
-        (HEADER.replace(",", "\t") + "1\t2\n", "line 1, character 15", "tab"),
-        (HEADER.encode("utf-16"), "line 1, byte 1", "CSV UTF-8"),
-        (HEADER.encode() + b"\xb5,1\n", "line 2, byte 1", "CSV UTF-8"),
-        (HEADER + "1," * 6000 + "\n", "line 2", "is it a CSV table"),
+        ("radius,force\n1,2\n", "line 1, column 1 (radius)", "wire_radius_mm"),
+        (HEADER.encode() + b"\xb5,1\n", "line 2, column 1", "not a number"),
+        (HEADER + "1," * 6000 + "\n", "line 2", "is it a table"),
         (HEADER.encode() + b"\x00,1\n", "line 2, column 1", "not a number"),
     ],
 )
@@ -181,7 +177,7 @@ def read_or_refuse(read, file):
     except InputError:
         return
     for value in vars(result).values():
-        assert value is None or np.all(np.isfinite(value))
+        assert value is None or isinstance(value, tuple) or np.all(np.isfinite(value))
 
 
 @pytest.mark.parametrize(
@@ -223,7 +219,7 @@ def test_quantity_with_unit(text, dimension, expected):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "mm", "0,2mm", "0.2 inch", "0.2mm2", "0.2 mm mm", "1e9999999m"]
+    "text", ["", "mm", "0,2mm", "0.2 ell", "0.2mm2", "0.2 mm mm", "1e9999999m"]
 )
 def test_quantity_refused(text):
     with pytest.raises(InputError, match="one of m, cm, mm, um"):

@@ -18,8 +18,12 @@ from .part import Part
 
 __all__ = ["fuzz"]
 
-TIMES, FLOOR = 10, 200_000
-"""Memory that reading may take: so many times the size of the file, and so much besides [bytes]."""
+TIMES, LINE, FLOOR = 10, 500, 200_000
+"""Memory that reading may take: times the size of the file, a line, and besides [bytes].
+
+The delimiter and the decimal sign are read off all lines, so that a line is held as text (60 bytes
+and its letters) and as a row (list, tuple and number, 200 bytes, and 60 a cell) at the same time.
+"""
 
 ODD_CELLS = (
     *("1", "0.5", "-1", "0", "1e999", "1e-999", "nan", "inf", "", " ", "1_0", "١", "0x1", "1e"),
@@ -146,7 +150,8 @@ def _read(part, row, read, file, content):
         outcome, what = "other error", f"{type(error).__name__}: {error}, {content[:80]!r}"
     memory = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    if memory > TIMES * len(content) + FLOOR:
+    lines = len(content.splitlines())
+    if memory > TIMES * len(content) + LINE * lines + FLOOR:
         outcome, what = "too much memory", f"{memory} for {len(content)} bytes"
     if what:
         part.fail(row, outcome if outcome != "refused" else "long message", what)

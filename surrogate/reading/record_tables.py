@@ -1,0 +1,176 @@
+"""Where in an export of a testing machine the tables of displacement and force are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from surrogate.errors import InputError
+from surrogate.reading.headings import (
+    Heading,
+    headings,
+    is_units_row,
+    meaning,
+    plain,
+    split_unit,
+    vocabulary,
+)
+from surrogate.reading.sheet import EMPTY, Row, Sheet
+from surrogate.reading.units import FORCE, LENGTH, TIME
+
+__all__ = ["LEAST_ROWS", "Block", "blocks"]
+
+_WORDS = vocabulary(
+    {
+        "displacement": [("displacement", LENGTH)],
+        "force": [("force", FORCE)],
+        "time": [("time", TIME)],
+    },
+    {
+        "displacement": "displacement,extension,distance,position,crosshead,stroke,travel,"
+        "crosshead displacement,crosshead position,crosshead travel,crosshead extension,"
+        "axial displacement,axial position,compressive extension,compressive displacement,"
+        "compression extension,compression displacement,compression,compressive travel,"
+        "standard travel,machine displacement,actuator displacement,actuator position,depth,"
+        "penetration,penetration depth,cutting depth,disp,traversenweg,weg,standardweg,"
+        "traversenweg absolut,absolute crosshead travel,verschiebung,verlangerung,"
+        "kolbenweg,maschinenweg,eindringtiefe,position absolut,kompressionsweg,stauchung,"
+        "druckverformung,verformung,deplacement,traverse,desplazamiento,corsa",
+        "force": "force,load,axial force,axial load,compressive load,compressive force,"
+        "compression load,compression force,standard force,test force,normal force,primary force,"
+        "machine load,load cell,loadcell,last,kraft,standardkraft,prufkraft,pruefkraft,druckkraft,"
+        "drucklast,kompressionslast,axialkraft,normalkraft,belastung,charge,fuerza,carga,forza,"
+        "effort",
+        "time": "time,zeit,test time,testzeit,prufzeit,pruefzeit,running time,elapsed time,"
+        "total time,time stamp,timestamp,temps,tiempo,tempo,t",
+    },
+)
+_NEEDED = ("displacement", "force")
+LEAST_ROWS = 2
+
+
+class Block(NamedTuple):
+    """A table in a file: the lines before it, its columns for each specimen, its rows."""
+
+    before: Sequence[Row]
+    sides: list[list[Heading]]
+    rows: list[Row]
+
+
+def blocks(sheet: Sheet, columns: str | None) -> Iterator[Block]:
+    """Yield every table of displacements and forces, or that whose columns the caller names.
+
+    Raises
+    ------
+    InputError
+        If a table has two columns of a quantity, no unit, or a row that breaks it.
+    """
+    if columns is not None:
+        yield _named_by_caller(sheet, columns)
+        return
+    rows, start, index = sheet.rows, 0, 0
+    while index < len(rows):
+        row = rows[index]
+        if not _is_header(row):
+            index += 1
+            continue
+        first = index + 1
+        units = rows[first] if first < len(rows) and is_units_row(sheet, rows[first]) else None
+        first += units is not None
+        end = first
+        while end < len(rows) and _is_data(sheet, rows[end], row):
+            end += 1
+        if end - first >= LEAST_ROWS:
+            _check_end(sheet, rows, end, row)
+            listed = headings(sheet, row, _WORDS, units, optional=("time",))
+            yield Block(rows[start:index], _sides(sheet, row, listed), rows[first:end])
+            start = end
+        index = max(end, index + 1)
+
+
+def _named_by_caller(sheet: Sheet, columns: str) -> Block:
+    names = Row(0, [name.strip() for name in columns.split(",")])
+    listed = headings(Sheet("columns", []), names, _WORDS)
+    if not {"displacement", "force"} <= {one.quantity for one in listed}:
+        raise InputError(
+            f"columns {columns!r} name no displacement or no force; write for instance "
+            "time_s,displacement_mm,force_N, one name a column."
+        )
+    data = [row for row in sheet.rows if _is_data(sheet, row, names)]
+    if not data:
+        raise InputError(
+            f"{sheet.file} has no rows of {len(names.cells)} numbers; name all its columns."
+        )
+    before = sheet.rows[: sheet.rows.index(data[0])]
+    return Block(before, _sides(sheet, names, listed), data)
+
+
+def _is_header(row: Row) -> bool:
+    means = {one[0][0][0] for cell in row.cells if (one := meaning(_base(cell), _WORDS))[0]}
+    return set(_NEEDED) <= means
+
+
+def _base(cell: str) -> str:
+    return split_unit(cell, _WORDS)[0]
+
+
+def _is_data(sheet: Sheet, row: Row, header: Row) -> bool:
+    """Whether a row holds numbers, at most as many words beside them, below a header."""
+    filled = [cell for cell in row.cells if cell.casefold() not in EMPTY]
+    numbers = sum(map(sheet.is_number, filled))
+    enough = numbers >= 2 or (numbers == 1 and sheet.is_number(filled[0]))
+    return enough and 2 * numbers >= len(filled) and len(row.cells) <= len(header.cells) + 1
+
+
+def _check_end(sheet: Sheet, rows: list[Row], end: int, header: Row) -> None:
+    """Refuse a table that one row breaks, so that the rest would be lost."""
+    if end + 1 >= len(rows) or rows[end + 1].line != rows[end - 1].line + 2:
+        return
+    if _is_data(sheet, rows[end + 1], header) and len(rows[end + 1].cells) == len(header.cells):
+        raise InputError(
+            f"{sheet.place(rows[end])} is no row of numbers, and yet such rows follow; correct "
+            "it or delete the line."
+        )
+
+
+def _sides(sheet: Sheet, header: Row, listed: list[Heading]) -> list[list[Heading]]:
+    """Return the columns of each specimen in a table: a name that comes again begins the next."""
+    known = [one for one in listed if one.quantity]
+    names = [plain(one.name) for one in known]
+    if len(set(names)) < len(names):
+        repeats = [i for i, name in enumerate(names) if name == names[0]]
+        sides = [known[i:j] for i, j in zip(repeats, [*repeats[1:], len(known)], strict=True)]
+    else:
+        sides = _numbered(known)
+    for side in sides:
+        _check_side(sheet, header, side)
+    return sides
+
+
+def _numbered(known: list[Heading]) -> list[list[Heading]]:
+    """Return columns by the number behind their names, such as Force 1 and Force 2."""
+    numbers = [plain(split_unit(one.name, _WORDS)[0]).split()[-1] for one in known]
+    groups: dict[str, list[Heading]] = {}
+    for number, one in zip(numbers, known, strict=True):
+        groups.setdefault(number if one.trial else "", []).append(one)
+    if len(groups) < 2 or not all(
+        set(_NEEDED) <= {one.quantity for one in side} for side in groups.values()
+    ):
+        return [known]
+    return list(groups.values())
+
+
+def _check_side(sheet: Sheet, header: Row, side: list[Heading]) -> None:
+    for quantity in (*_NEEDED, "time"):
+        columns = [one for one in side if one.quantity == quantity]
+        if len(columns) > 1 or (not columns and quantity in _NEEDED):
+            state = (
+                "several columns of " + quantity + ": " + " and ".join(map(str, columns))
+                if columns
+                else f"no {quantity} for every specimen"
+            )
+            names = ",".join(name or "-" for name in header.cells)
+            raise InputError(
+                f"{sheet.place(header)} has {state}; name all columns yourself, and those not to "
+                f"be read by '-', with --columns (columns= in Python) instead of {names}."
+            )
