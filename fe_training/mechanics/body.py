@@ -197,18 +197,21 @@ class Body:
     def _pattern(self) -> tuple[Index, Index, Index, Index]:
         """Row, column, row pointers of the free block, and where each element entry goes."""
         number = np.full(self.size, -1, dtype=np.int64)
-        number[self.free] = np.arange(self.free.sum())
+        count = int(self.free.sum())
+        number[self.free] = np.arange(count)
         local = number[self.element_unknowns]
         n, m = local.shape
         i = np.broadcast_to(local[:, :, None], (n, m, m)).ravel()
         j = np.broadcast_to(local[:, None, :], (n, m, m)).ravel()
-        inside = (i >= 0) & (j >= 0)
-        count = int(self.free.sum())
-        unique, inverse = np.unique(i[inside] * count + j[inside], return_inverse=True)
-        target = np.full(len(i), len(unique), dtype=np.int64)
-        target[inside] = inverse
-        rows, columns = unique // count, unique % count
-        pointers = np.searchsorted(rows, np.arange(count + 1))
+        inside = np.flatnonzero((i >= 0) & (j >= 0))
+        i, j = i[inside], j[inside]
+        pattern = sp.csr_matrix((np.ones(len(i), dtype=np.int8), (i, j)), shape=(count, count))
+        pattern.sum_duplicates()
+        pattern.data = np.arange(pattern.nnz)
+        target = np.full(n * m * m, pattern.nnz, dtype=np.int64)
+        target[inside] = np.asarray(pattern[i, j]).ravel()
+        columns, pointers = pattern.indices, pattern.indptr
+        rows = np.repeat(np.arange(count), np.diff(pointers))
         return rows, columns, pointers, target
 
     def element_forces(
