@@ -37,11 +37,9 @@ _RAISE = Steps(0.15, 0.35)
 #: The wire is raised on a mesh as coarse as this, where it takes many steps.
 _ROUGH_SECTORS, _ROUGH_SPACING, _ROUGH_GROWTH = 12, 0.2, 0.5
 
-#: Largest relative change of the horizontal force in one step.
+#: First step of the horizontal force, relative to it.
 _FORCE_STEP = 0.26
 
-#: Largest ratio of the horizontal forces at the ends of one stretch of a path.
-_STRETCH = 1.5
 _CORRECTIONS = 8
 
 #: Elements are split from this share of the scatter that is allowed, so that the next ones are
@@ -277,7 +275,7 @@ class Cut:
 
     def at(self, state: State, g: float) -> State:
         """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
-        force = 0.5 * g
+        force = 0.5 * g / self._imbalance(state)
         for _ in range(_CORRECTIONS):
             state = self._pulled(state, force)
             ratio = self.energy_release_rate(state) / g
@@ -286,19 +284,14 @@ class Cut:
             force /= ratio
         raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
 
-    def _pulled(self, state: State, force: float) -> State:
-        """Return the state at a horizontal force, reached in stretches.
+    def _imbalance(self, state: State) -> float:
+        """Return J/(2 F_h), which changes slowly along a path."""
+        return self.energy_release_rate(state) / (2.0 * state.horizontal_force)
 
-        Steps are relative to the end of a stretch, and far ahead of it they would pass the meshes
-        that the way there needs.
-        """
-        while True:
-            now = abs(state.horizontal_force)
-            end = min(force, _STRETCH * now)
-            steps = Steps(_FORCE_STEP * now, _FORCE_STEP * max(now, end))
-            state = self.last(state, Control.FORCE, end, steps)
-            if end == force:
-                return state
+    def _pulled(self, state: State, force: float) -> State:
+        """Return the state at a horizontal force, with steps that follow the contact."""
+        steps = Steps(_FORCE_STEP * abs(state.horizontal_force), np.inf)
+        return self.last(state, Control.FORCE, force, steps)
 
     def supports(self, state: State) -> list[tuple[float, float]]:
         """Return the supports of the domain integrals, nearest first.

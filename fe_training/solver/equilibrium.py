@@ -9,17 +9,25 @@ directions, and their normal displacement is prescribed; there are no multiplier
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.mechanics import active_set as contact
-from fe_training.mechanics import ogden
-from fe_training.mechanics.active_set import ActiveSet, Geometry
+from fe_training.mechanics.active_set import Geometry
 from fe_training.mechanics.body import Body
 from fe_training.solver.linear_solvers import LinearSolver
-from fe_training.solver.state import Control, NewtonOutcome, State, control_value, undeformed
+from fe_training.solver.predictor import admissible, predicted
+from fe_training.solver.state import (
+    Control,
+    Direction,
+    NewtonOutcome,
+    State,
+    control_rate,
+    control_value,
+    undeformed,
+)
 
 __all__ = ["Control", "NewtonOutcome", "State", "control_value", "equilibrate", "undeformed"]
 
@@ -36,57 +44,14 @@ _DIVERGED = 1e8
 #: Contact forces below this count as this much in relative residuals [mu R_w].
 _LEAST_FORCE = 1e-3
 
-#: Share of det F that a quadrature point keeps in one step, and halvings tried for it.
-_LEAST_SHARE, _HALVINGS = 0.2, 6
-
 #: Corrections with the factors of one iteration, and what each has to leave of the residual; they
 #: go on to this residual while they do.
 _CORRECTIONS, _CONTRACTION, _AIM = 8, 0.3, 1e-9
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Direction:
-    """A change of the unknowns: displacements, pressures and normal forces."""
-
-    u: Array
-    p: Array
-    force: Array
-
-    def plus(self, other: _Direction, factor: float) -> _Direction:
-        return _Direction(
-            self.u + factor * other.u,
-            self.p + factor * other.p,
-            self.force + factor * other.force,
-        )
-
-
 def _axis(control: Control) -> Array:
     """Return the direction in which the wire moves under a control."""
     return np.array([0.0, 1.0]) if control is Control.HEIGHT else np.array([1.0, 0.0])
-
-
-def _force_slope(geo: Geometry, active: ActiveSet, force: Array) -> Array:
-    """Return dF_h/d(position of each touching node) due to the turning of its normal."""
-    share = np.where(active.wire, force / geo.wire_distance, 0.0)
-    turn = np.array([1.0, 0.0]) - geo.normal * geo.normal[:, :1]
-    return np.asarray(share[:, None] * turn)
-
-
-def _control_rate(
-    body: Body, control: Control, d: _Direction, axis: Array, geo: Geometry, state: State
-) -> float:
-    """Return the change of a control's value along a direction with the wire moving by `axis`."""
-    if control is Control.HEIGHT:
-        return float(axis[1])
-    if control is Control.POSITION:
-        return float(axis[0])
-    if control is Control.DISTANCE:
-        return float(d.u[body.face[0], 0] - axis[0])
-    slope = _force_slope(geo, state.active, state.force)
-    moved = d.u[body.face] - axis
-    turned = np.einsum("ij,ij->", slope, moved)
-    wire = state.active.wire
-    return float(d.force[wire] @ geo.normal[wire, 0] + turned)
 
 
 class _Residual:
@@ -115,13 +80,13 @@ class _Residual:
         gaps = np.abs(self.geo.gap[self.touching]).max(initial=0.0)
         return float(np.sqrt(r @ r) / total + gaps)
 
-    def direction(self, x: Array, reaction: Array) -> _Direction:
+    def direction(self, x: Array, reaction: Array) -> Direction:
         """Return the change of the unknowns of which `x` and `reaction` are the turned form."""
         force = np.zeros(len(self.body.face))
         force[self.touching] = reaction[2 * self.nodes]
         self._turn_back(x)
         d = self.body.displacements
-        return _Direction(x[:d].reshape(-1, 2), x[d:], force)
+        return Direction(x[:d].reshape(-1, 2), x[d:], force)
 
     def _turn(self, vector: Array) -> None:
         pairs = vector[: self.body.displacements].reshape(-1, 2)
@@ -179,7 +144,7 @@ class _Linearisation(_Residual):
         node = self.local[e, a]
         tangent[self.elements[e], 2 * a + 1, 2 * a + 1] -= self.curvature[node]
 
-    def directions(self, solver: LinearSolver) -> tuple[_Direction, _Direction]:
+    def directions(self, solver: LinearSolver) -> tuple[Direction, Direction]:
         """Return the Newton step at a fixed wire, and the response to a unit move of the wire."""
         body, axis = self.body, self.axis
         known = np.zeros((body.size, 2))
@@ -195,7 +160,7 @@ class _Linearisation(_Residual):
         newton, move = (self.direction(x[:, i], reaction[:, i]) for i in range(2))
         return newton, move
 
-    def correction(self, solver: LinearSolver, at: _Residual) -> _Direction:
+    def correction(self, solver: LinearSolver, at: _Residual) -> Direction:
         """Return the step at a fixed wire from another state with the factors of this one."""
         known = np.zeros((self.body.size, 1))
         known[2 * self.nodes, 0] = -at.geo.gap[self.touching]
@@ -214,44 +179,6 @@ class _Linearisation(_Residual):
         full[free] = x * scale
         reaction[free] = self.matrix @ x / scale
         return full, reaction
-
-
-def predicted(body: Body, state: State, control: Control, target: float) -> State:
-    """Return the state moved along its tangent towards the target, as a starting point."""
-    if state.tangent is None or state.control is not control:
-        return state
-    t = state.tangent
-    step = target - control_value(body, state, control)
-    step *= _admissible(body, state, step * t.u, step * t.centre)
-    return replace(
-        state,
-        u=state.u + step * t.u,
-        p=state.p + step * t.p,
-        centre=state.centre + step * t.centre,
-    )
-
-
-def _admissible(body: Body, state: State, step: Array, move: Array) -> float:
-    """Return the length of a step that leaves every element a share of its area.
-
-    It is needed where steps are large, as while the wire is raised.  At high toughness it does
-    harm: elements at the end of the contact that fold for an iteration make it crawl.  Each
-    quadrature point may lose at most most of its determinant in one step; the determinant is
-    smooth in the length, so a few halvings suffice.
-    """
-    watched = body.beyond_notch
-    u, centre = state.u, state.centre
-    before = ogden.volume_change(body.displacement_gradient(u, watched, centre)) + 1.0
-    # where an element is folded already, all that is asked for is that it stays near
-    floor = np.where(before > 0.0, np.minimum(_LEAST_SHARE * before, _LEAST_SHARE), before - 1.0)
-    t = 1.0
-    for _ in range(_HALVINGS):
-        there = body.displacement_gradient(u + t * step, watched, centre + t * move)
-        after = ogden.volume_change(there) + 1.0
-        if (after > floor).all():
-            return t
-        t *= 0.5
-    return t
 
 
 def equilibrate(
@@ -312,7 +239,7 @@ class _Newton:
             if not norm < _DIVERGED:
                 return state, NewtonOutcome.DIVERGED
             newton, move = lin.directions(self.solver)
-            rate = _control_rate(body, self.control, move, axis, lin.geo, state)
+            rate = control_rate(body, self.control, move, axis, lin.geo, state)
             tangent = State(
                 move.u / rate,
                 move.p / rate,
@@ -345,15 +272,15 @@ class _Newton:
         return control_value(self.body, state, self.control) - self.target
 
     def _stepped(
-        self, state: State, newton: _Direction, tangent: State, geo: Geometry, guarded: bool
+        self, state: State, newton: Direction, tangent: State, geo: Geometry, guarded: bool
     ) -> tuple[State, bool]:
         """Return the state after a step that meets the control, and whether it is a whole one."""
-        drift = _control_rate(self.body, self.control, newton, np.zeros(2), geo, state)
+        drift = control_rate(self.body, self.control, newton, np.zeros(2), geo, state)
         change = -(self._missed(state) + drift)
-        step = newton.plus(_Direction(tangent.u, tangent.p, tangent.force), change)
+        step = newton.plus(Direction(tangent.u, tangent.p, tangent.force), change)
         move, t = change * tangent.centre, 1.0
         if guarded:
-            t = _admissible(self.body, state, step.u, move)
+            t = admissible(self.body, state, step.u, move)
         u, centre, force = (
             state.u + t * step.u,
             state.centre + t * move,

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.mechanics import active_set as contact
-from fe_training.mechanics.active_set import ActiveSet
+from fe_training.mechanics.active_set import ActiveSet, Geometry
 from fe_training.mechanics.body import Body
 
 Array = NDArray[np.float64]
@@ -80,6 +81,10 @@ class State:
         """F_h, the component along the cut of the force on the body from the wire [mu R_w]."""
         return float(self.force[self.active.wire] @ self.normal[self.active.wire, 0])
 
+    def about(self, body: Body, nodes: NDArray[Any]) -> Array:
+        """Return places of nodes relative to the wire's centre [R_w]."""
+        return np.asarray(body.nodes[nodes] + self.u[nodes] - self.centre)
+
     @property
     def vertical_force(self) -> float:
         """F_v, the component that opens the cut [mu R_w]."""
@@ -109,3 +114,43 @@ def control_value(body: Body, state: State, control: Control) -> float:
         tip = body.face[0]
         return float(body.nodes[tip, 0] + state.u[tip, 0] - state.centre[0])
     return state.horizontal_force
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Direction:
+    """A change of the unknowns: displacements, pressures and normal forces."""
+
+    u: Array
+    p: Array
+    force: Array
+
+    def plus(self, other: Direction, factor: float) -> Direction:
+        return Direction(
+            self.u + factor * other.u,
+            self.p + factor * other.p,
+            self.force + factor * other.force,
+        )
+
+
+def _force_slope(geo: Geometry, active: ActiveSet, force: Array) -> Array:
+    """Return dF_h/d(position of each touching node) due to the turning of its normal."""
+    share = np.where(active.wire, force / geo.wire_distance, 0.0)
+    turn = np.array([1.0, 0.0]) - geo.normal * geo.normal[:, :1]
+    return np.asarray(share[:, None] * turn)
+
+
+def control_rate(
+    body: Body, control: Control, d: Direction, axis: Array, geo: Geometry, state: State
+) -> float:
+    """Return the change of a control's value along a direction with the wire moving by `axis`."""
+    if control is Control.HEIGHT:
+        return float(axis[1])
+    if control is Control.POSITION:
+        return float(axis[0])
+    if control is Control.DISTANCE:
+        return float(d.u[body.face[0], 0] - axis[0])
+    slope = _force_slope(geo, state.active, state.force)
+    moved = d.u[body.face] - axis
+    turned = np.einsum("ij,ij->", slope, moved)
+    wire = state.active.wire
+    return float(d.force[wire] @ geo.normal[wire, 0] + turned)
