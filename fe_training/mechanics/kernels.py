@@ -36,7 +36,14 @@ ElementArrays = Callable[..., tuple[Array, Array]]
 
 
 def element_arrays_numpy(
-    u: Array, p: Array, grad: Array, psi: Array, dx: Array, alpha: float, kappa: Array
+    u: Array,
+    p: Array,
+    grad: Array,
+    psi: Array,
+    dx: Array,
+    alpha: float,
+    kappa: Array,
+    tangents: bool = True,
 ) -> tuple[Array, Array]:
     """Return element residuals and tangents.
 
@@ -56,23 +63,28 @@ def element_arrays_numpy(
         Strain-stiffening exponent [-].
     kappa : ndarray, shape (elements,)
         Bulk term of each element [mu].
+    tangents : bool
+        Whether the tangents are wanted.
 
     Returns
     -------
     residual : ndarray, shape (elements, unknowns)
     tangent : ndarray, shape (elements, unknowns, unknowns)
+        Empty where it is not wanted.
     """
     H = np.einsum("eni,eqnj->ijeq", u, grad)
     pressure = np.einsum("em,qm->eq", p, psi)
     bulk = kappa[:, None]
     P = ogden.stress(H, pressure, alpha, bulk)
-    A = ogden.tangent(H, pressure, alpha, bulk)
-    cof = ogden.cofactor(H)
     n, nodes, pressures = len(u), u.shape[1], p.shape[1]
     nu = 2 * nodes
     residual = np.empty((n, nu + pressures))
     residual[:, :nu] = np.einsum("ijeq,eqnj,eq->eni", P, grad, dx).reshape(n, nu)
     residual[:, nu:] = np.einsum("eq,qm,eq->em", ogden.volume_change(H), psi, dx)
+    if not tangents:
+        return residual, np.empty((0, nu + pressures, nu + pressures))
+    A = ogden.tangent(H, pressure, alpha, bulk)
+    cof = ogden.cofactor(H)
     K = np.zeros((n, nu + pressures, nu + pressures))
     weighted = np.einsum("ijkleq,eqml,eq->eqijmk", A, grad, dx)
     K[:, :nu, :nu] = np.einsum("eqnj,eqijmk->enimk", grad, weighted).reshape(n, nu, nu)
@@ -131,7 +143,15 @@ def _polar_kinematics(y: Array, shape: Array, grad: Array) -> tuple[Array, ...]:
 
 
 def polar_arrays_numpy(
-    y: Array, p: Array, shape: Array, grad: Array, psi: Array, dx: Array, alpha: float, kappa: Array
+    y: Array,
+    p: Array,
+    shape: Array,
+    grad: Array,
+    psi: Array,
+    dx: Array,
+    alpha: float,
+    kappa: Array,
+    tangents: bool = True,
 ) -> tuple[Array, Array]:
     """Return residuals and tangents of elements that interpolate polar coordinates.
 
@@ -141,7 +161,7 @@ def polar_arrays_numpy(
         Nodes relative to the wire's centre [R_w].
     shape : ndarray, shape (points, nodes)
         Displacement shape functions [-].
-    p, grad, psi, dx, alpha, kappa
+    p, grad, psi, dx, alpha, kappa, tangents
         As in :func:`element_arrays_numpy`.
 
     Returns
@@ -205,7 +225,7 @@ def polar_arrays_numpy(
     full[:, :nu, :nu] = K.reshape(n, nu, nu)
     full[:, :nu, nu:] = np.einsum("enci,encm->enim", J, coupling).reshape(n, nu, pressures)
     full[:, nu:, :nu] = full[:, :nu, nu:].transpose(0, 2, 1)
-    return residual, full
+    return residual, full if tangents else full[:0]
 
 
 def _power_strain(e: float, m: float) -> float:
@@ -282,16 +302,23 @@ def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -
 
 
 def _element_loop(
-    u: Array, p: Array, grad: Array, psi: Array, dx: Array, alpha: float, kappa: Array
+    u: Array,
+    p: Array,
+    grad: Array,
+    psi: Array,
+    dx: Array,
+    alpha: float,
+    kappa: Array,
+    tangents: bool = True,
 ) -> tuple[Array, Array]:
     n, points, nodes, _ = grad.shape
     pressures = psi.shape[1]
     nu = 2 * nodes
     residual = np.zeros((n, nu + pressures))
-    K = np.zeros((n, nu + pressures, nu + pressures))
+    K = np.zeros((n if tangents else 1, nu + pressures, nu + pressures))
     H, P, A, Ag = np.empty(4), np.empty(4), np.empty((4, 4)), np.empty((4, 2))
     for el in range(n):
-        R, Ke = residual[el], K[el]
+        R, Ke = residual[el], K[el if tangents else 0]
         for q in range(points):
             g, w = grad[el, q], dx[el, q]
             H[:] = 0.0
@@ -308,6 +335,8 @@ def _element_loop(
                 R[2 * a + 1] += w * (P[2] * g[a, 0] + P[3] * g[a, 1])
             for a in range(pressures):
                 R[nu + a] += w * dj * psi[q, a]
+            if not tangents:
+                continue
             for b in range(nodes):
                 for r in range(4):
                     Ag[r, 0] = w * (A[r, 0] * g[b, 0] + A[r, 1] * g[b, 1])
@@ -324,23 +353,31 @@ def _element_loop(
         for i in range(nu + pressures):
             for j in range(i):
                 Ke[i, j] = Ke[j, i]
-    return residual, K
+    return residual, K[: n if tangents else 0]
 
 
 def _polar_loop(
-    y: Array, p: Array, shape: Array, grad: Array, psi: Array, dx: Array, alpha: float, kappa: Array
+    y: Array,
+    p: Array,
+    shape: Array,
+    grad: Array,
+    psi: Array,
+    dx: Array,
+    alpha: float,
+    kappa: Array,
+    tangents: bool = True,
 ) -> tuple[Array, Array]:
     n, points, nodes, _ = grad.shape
     pressures = psi.shape[1]
     nu = 2 * nodes
     residual = np.zeros((n, nu + pressures))
-    K = np.zeros((n, nu + pressures, nu + pressures))
+    K = np.zeros((n if tangents else 1, nu + pressures, nu + pressures))
     H, P, A = np.empty(4), np.empty(4), np.empty((4, 4))
     B, AB, area = np.empty((4, nu)), np.empty((4, nu)), np.empty(nu)
     sigma, phi, J = np.empty(nodes), np.empty(nodes), np.empty((nodes, 2, 2))
     Q, block = np.empty((nu, nu)), np.empty((2, 2))
     for el in range(n):
-        R, Ke = np.zeros(nu), K[el]
+        R, Ke = np.zeros(nu), K[el if tangents else 0]
         Q[:] = 0.0
         for a in range(nodes):
             y0, y1 = y[el, a, 0], y[el, a, 1]
@@ -373,8 +410,13 @@ def _polar_loop(
                 B[0, 2 * a + 1], B[1, 2 * a + 1] = 0.0, 0.0
                 B[2, 2 * a + 1], B[3, 2 * a + 1] = rho * g0, rho * g1
                 area[2 * a], area[2 * a + 1] = g0 * f1 - g1 * f0, g1 * s0 - g0 * s1
+            for m in range(pressures):
+                residual[el, nu + m] += w * dj * psi[q, m]
             for b in range(nu):
                 R[b] += w * (P[0] * B[0, b] + P[1] * B[1, b] + P[2] * B[2, b] + P[3] * B[3, b])
+            if not tangents:
+                continue
+            for b in range(nu):
                 for i in range(4):
                     AB[i, b] = w * (
                         A[i, 0] * B[0, b]
@@ -402,12 +444,13 @@ def _polar_loop(
                     if a < b:
                         turn_a = w * (P[2] * g[a, 0] + P[3] * g[a, 1]) / rho
                         Q[2 * a + 1, 2 * b] += turn_a * Nb
-            for m in range(pressures):
-                residual[el, nu + m] += w * dj * psi[q, m]
         # from sigma and phi of the nodes to their displacements
         for b in range(nodes):
             for i in range(2):
                 residual[el, 2 * b + i] = J[b, 0, i] * R[2 * b] + J[b, 1, i] * R[2 * b + 1]
+        if not tangents:
+            continue
+        for b in range(nodes):
             for m in range(nu, nu + pressures):
                 c0, c1 = Ke[2 * b, m], Ke[2 * b + 1, m]
                 Ke[2 * b, m] = J[b, 0, 0] * c0 + J[b, 1, 0] * c1
@@ -432,7 +475,7 @@ def _polar_loop(
         for i in range(nu + pressures):
             for j in range(i):
                 Ke[i, j] = Ke[j, i]
-    return residual, K
+    return residual, K[: n if tangents else 0]
 
 
 @functools.cache

@@ -35,13 +35,11 @@ from fe_training.solver.record import Outcome, Record
 _RAISE = Steps(0.15, 0.35)
 
 #: The wire is raised on a mesh as coarse as this, where it takes many steps.
-_ROUGH_SECTORS, _ROUGH_SPACING = 12, 0.2
+_ROUGH_SECTORS, _ROUGH_SPACING, _ROUGH_GROWTH = 12, 0.2, 0.5
 
-#: Largest relative change of the horizontal force in one step.
+#: First step of the horizontal force, relative to it.
 _FORCE_STEP = 0.26
 
-#: Largest ratio of the horizontal forces at the ends of one stretch of a path.
-_STRETCH = 1.5
 _CORRECTIONS = 8
 
 #: Elements are split from this share of the scatter that is allowed, so that the next ones are
@@ -127,6 +125,18 @@ class MeshTooLargeError(PathStalledError):
 Build = Callable[[float, MeshSpec, Settings], Body]
 
 
+def _at_ends(body: Body, state: State) -> NDArray[np.int64]:
+    """Return the elements at the ends of the contact, and their neighbours."""
+    touching = np.flatnonzero(state.active.wire)
+    ends = [i for end in (touching[0], touching[-1]) for i in range(end - _END, end + _END + 1)]
+    near = np.zeros(len(body.nodes), dtype=bool)
+    near[body.face[np.clip(ends, 0, len(body.face) - 1)]] = True
+    for _ in range(2):
+        split = np.flatnonzero(near[body.connectivity].any(axis=1))
+        near[body.connectivity[split]] = True
+    return split
+
+
 def _cracked(alpha: float, spec: MeshSpec, settings: Settings) -> Body:
     return Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
 
@@ -167,6 +177,7 @@ class Cut:
             self.spec,
             sectors=min(self.spec.sectors, _ROUGH_SECTORS),
             contact_spacing=max(self.spec.contact_spacing, _ROUGH_SPACING),
+            growth=max(self.spec.growth, _ROUGH_GROWTH),
         )
         if spec == self.spec:
             return None
@@ -222,21 +233,24 @@ class Cut:
             state = adapted = self._split(state, control, split)
         return adapted
 
-    def sharpened(self, state: State, control: Control) -> State:
+    def sharpened(self, state: State, control: Control, times: int = 1) -> State:
         """Return the state on a mesh whose elements at the ends of the contact are split."""
-        body, touching = self.body, np.flatnonzero(state.active.wire)
-        ends = [i for end in (touching[0], touching[-1]) for i in range(end - _END, end + _END + 1)]
-        near = np.zeros(len(body.nodes), dtype=bool)
-        near[body.face[np.clip(ends, 0, len(body.face) - 1)]] = True
-        for _ in range(2):  # the elements there, and their neighbours
-            split = np.flatnonzero(near[body.connectivity].any(axis=1))
-            near[body.connectivity[split]] = True
-        return self._split(state, control, split)
+        value = control_value(self.body, state, control)
+        body, carried = self.body, state
+        for _ in range(times):
+            body, carried = refined(body, carried, _at_ends(body, carried))
+        return self._settled(body, carried, state, control, value)
 
     def _split(self, state: State, control: Control, elements: NDArray[np.int64]) -> State:
         """Split elements, and let the body settle at the same value of a control."""
         value = control_value(self.body, state, control)
         body, carried = refined(self.body, state, elements)
+        return self._settled(body, carried, state, control, value)
+
+    def _settled(
+        self, body: Body, carried: State, state: State, control: Control, value: float
+    ) -> State:
+        """Go over to a finer body, on which a state was carried over; return its equilibrium."""
         if int(body.free.sum()) > MOST_UNKNOWNS:
             raise MeshTooLargeError(state, control, value, NewtonOutcome.STALLED)
         solver = make_solver(self.settings.solver)
@@ -261,7 +275,7 @@ class Cut:
 
     def at(self, state: State, g: float) -> State:
         """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
-        force = 0.5 * g
+        force = 0.5 * g / self._imbalance(state)
         for _ in range(_CORRECTIONS):
             state = self._pulled(state, force)
             ratio = self.energy_release_rate(state) / g
@@ -270,19 +284,14 @@ class Cut:
             force /= ratio
         raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
 
-    def _pulled(self, state: State, force: float) -> State:
-        """Return the state at a horizontal force, reached in stretches.
+    def _imbalance(self, state: State) -> float:
+        """Return J/(2 F_h), which changes slowly along a path."""
+        return self.energy_release_rate(state) / (2.0 * state.horizontal_force)
 
-        Steps are relative to the end of a stretch, and far ahead of it they would pass the meshes
-        that the way there needs.
-        """
-        while True:
-            now = abs(state.horizontal_force)
-            end = min(force, _STRETCH * now)
-            steps = Steps(_FORCE_STEP * now, _FORCE_STEP * max(now, end))
-            state = self.last(state, Control.FORCE, end, steps)
-            if end == force:
-                return state
+    def _pulled(self, state: State, force: float) -> State:
+        """Return the state at a horizontal force, with steps that follow the contact."""
+        steps = Steps(_FORCE_STEP * abs(state.horizontal_force), np.inf)
+        return self.last(state, Control.FORCE, force, steps)
 
     def supports(self, state: State) -> list[tuple[float, float]]:
         """Return the supports of the domain integrals, nearest first.

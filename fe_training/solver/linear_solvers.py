@@ -21,6 +21,7 @@ MUMPS was built on a plain, unoptimised BLAS; with another one the times may be 
 
 from __future__ import annotations
 
+import os
 import weakref
 from abc import ABC, abstractmethod
 from importlib.util import find_spec
@@ -107,7 +108,10 @@ class Pardiso(LinearSolver):
 
     def __init__(self) -> None:
         import pypardiso
+        from pypardiso.scipy_aliases import pypardiso_solver
 
+        # its own first solver has searched the whole installation for MKL; each would again
+        os.environ.setdefault("PYPARDISO_MKL_RT", pypardiso_solver.libmkl._name)
         self._solver: Any = pypardiso.PyPardisoSolver(mtype=self._SYMMETRIC_INDEFINITE)
         for number, value in self._SETTINGS.items():
             self._solver.set_iparm(number, value)

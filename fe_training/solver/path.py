@@ -18,6 +18,7 @@ from fe_training.solver.equilibrium import (
     equilibrate,
 )
 from fe_training.solver.linear_solvers import LinearSolver
+from fe_training.solver.predictor import contact_step
 
 #: A state with an element turned inside out by more than this is another branch.  Single elements
 #: at the end of the contact fold a little.
@@ -26,6 +27,10 @@ _QUICK = 8
 _GROWTH = 1.3
 _SMALLEST_SHARE = 1 / 64
 _SECANTS = 12
+
+#: Nodes that may meet or leave the wire in one step, relative to those that touch it, and the
+#: largest relative change of the horizontal force.
+_SHARE, _FORCE_STEP = 0.15, 0.26
 
 
 class PathStalledError(RuntimeError):
@@ -85,6 +90,14 @@ def _attempt(
     return found, outcome
 
 
+def _bound(body: Body, state: State, control: Control, sign: float) -> float:
+    """Return the largest step of a control from here, infinite for all but the force."""
+    if control is not Control.FORCE:
+        return np.inf
+    relative = _FORCE_STEP * abs(state.horizontal_force)
+    return min(relative, contact_step(body, state, control, sign, _SHARE))
+
+
 def follow(
     body: Body,
     state: State,
@@ -118,8 +131,9 @@ def follow(
     size = min(state.step, steps.largest) if state.control is control else 0.0
     size = size or steps.first
     while sign * (end - here) > 1e-12 * max(1.0, abs(end)):
-        there = here + sign * size
-        if sign * (end - there) < 0.2 * size:
+        step = min(size, _bound(body, state, control, sign))
+        there = here + sign * step
+        if sign * (end - there) < 0.2 * step:
             there = end
         found, outcome = _attempt(body, state, control, there, solver)
         if found is None:

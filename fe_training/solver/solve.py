@@ -145,16 +145,9 @@ def _far_field(alpha: float, g: float, settings: Settings, shift: bool) -> Recor
         state = _landed(rough, state, g)
         cut = far_field_cut(alpha, -float(state.centre[0]), settings)
         state = _landed(cut, cut.taken_over(rough, state), g)
-        return cut.record(_sharp(cut, state, Control.POSITION), g, shift)
+        return cut.record(cut.sharpened(state, Control.POSITION, _SHARPENINGS), g, shift)
     except PathStalledError as error:
         return cut.failure(error, g)
-
-
-def _sharp(cut: Cut, state: State, control: Control) -> State:
-    """Return the state at the same value of a control with the ends of the contact split."""
-    for _ in range(_SHARPENINGS):
-        state = cut.sharpened(state, control)
-    return state
 
 
 def _way_to(cut: Cut, state: State, g: float) -> float:
@@ -311,7 +304,7 @@ def _solve_to(
         cut = far_field_cut(alpha, -position, settings)
         try:
             state = cut.last(cut.raised(position), control, target, _APPROACH)
-            return cut.record(_sharp(cut, state, control), shift=shift)
+            return cut.record(cut.sharpened(state, control, _SHARPENINGS), shift=shift)
         except PathStalledError as error:
             return cut.failure(error)
     cut = indentation_cut(alpha, settings)
