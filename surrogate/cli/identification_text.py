@@ -9,6 +9,7 @@ from textwrap import fill
 from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
+from surrogate.choosing.by_name import force_model
 from surrogate.cli.alternatives import alternatives_record, alternatives_text
 from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
@@ -16,6 +17,7 @@ from surrogate.cutting.transition_radius import fracto_cohesive_transition_radiu
 from surrogate.identification.fit import Identification
 from surrogate.identification.open_questions import wire_in_words
 from surrogate.identification.summary import answer, brief, is_answer, rests_on
+from surrogate.inference.continuation import is_continued
 from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
 from surrogate.version import __version__
@@ -236,7 +238,9 @@ def _length(definition: str, value: float, std: float | None) -> Record:
 def _identified_wires(fit: Identification) -> list[Record]:
     regime: dict[str, Any] = {}
     if fit.is_physical and "shear_modulus" not in fit.assumed:
-        classes = classify(fit.scene(fit.wire_radius), model=fit.model)
+        continued = is_continued(force_model(fit.model))  # as the identification itself does
+        scene = fit.scene(fit.wire_radius)
+        classes = classify(scene, model=fit.model, extrapolate=continued)
         regime = {"dominant": classes.dominant, "contact": classes.contact}
     return wire_rows(
         wire_radius=fit.wire_radius,

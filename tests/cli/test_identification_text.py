@@ -184,3 +184,21 @@ def test_what_is_stated_of_the_modulus_reaches_the_fit(cuts, capsys):
 def test_a_toughness_far_above_pure_shear_is_doubted(cuts, capsys):
     printed = run(cuts, "--model eq13 --pure-shear-toughness 0.001J/m2 --relative-error 1%", capsys)
     assert "far above the toughness of pure shear" in " ".join(printed.split())
+
+
+def test_wires_beyond_the_range_are_printed_and_drawn(tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    file, picture, line = tmp_path / "cuts.csv", tmp_path / "fit.png", tmp_path / "fit.csv"
+    rows = [f"{d},{f},9\n" for d, f in ((0.7, 172), (1.0, 175), (1.4, 181), (2.1, 186))]
+    header = "wire_diameter_mm,force_per_thickness_N_per_m,force_std_N_per_m\n"
+    file.write_text(header + "".join(rows))
+    options = f"--shear-modulus 3kPa --plot {picture} --csv {line}"
+    assert main(shlex.split(f"identify {file} {options}")) == 0
+    answer, warning = capsys.readouterr().out.split("\n")[:2]
+    assert re.match(r"Gamma_o = 1\d\d \(\d+ to \d+\) J/m2", answer)
+    assert warning.startswith("Warning: 2 of 4 cuts (R_w = 0.35, 0.5 mm) are at g = ")
+    assert picture.stat().st_size > 0
+    assert "nan" not in line.read_text()
+    assert main(shlex.split(f"identify {file} --shear-modulus 3kPa --verbose --json")) == 0
+    record = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert record["wear_strength_limited_by"][0] == "zero"
