@@ -44,6 +44,7 @@ class Workers:
 
 
 def use_one_thread() -> None:
+    """Hold the numerical libraries of this process to one thread."""
     os.environ.update(_ONE_THREAD)  # for libraries that are not loaded yet
     from threadpoolctl import threadpool_limits
 

@@ -108,7 +108,7 @@ def chi_squared_limit(dof: int, probability: float) -> float:
     Examples
     --------
     >>> print(f"{chi_squared_limit(4, 0.01):.2f}")
-    3.32
+    3.33
     """
     z = normal_quantile(1.0 - 2.0 * probability)
     variance = 2.0 / (9.0 * dof)

@@ -65,7 +65,8 @@ def test_the_two_steps_give_what_one_gives(run, tmp_path, capsys):
     capsys.readouterr()
     twice = json.loads(run("identify", "cuts.csv", "--json")[1])
     assert twice["toughness"] == pytest.approx(once["toughness"], rel=1e-9)
-    assert twice["wear_strength_std"] == pytest.approx(once["wear_strength_std"], rel=1e-9)
+    # the table has twelve digits of each force, of which a residual keeps eight
+    assert twice["wear_strength_std"] == pytest.approx(once["wear_strength_std"], rel=1e-7)
 
 
 def test_forces_in_newtons_and_what_was_not_used(run, tmp_path):

@@ -1,5 +1,8 @@
 """Sound values of every parameter of the public functions, by name."""
 
+import tempfile
+from pathlib import Path
+
 from surrogate.basics.files import model_file
 from surrogate.scene import NAMES, Scene
 
@@ -7,6 +10,16 @@ __all__ = ["ALIASES", "ARRAYS", "BASE", "CHOICES", "FORCES", "OWN", "RADII", "SC
 
 SCENE = dict(zip(NAMES, (685.0, 1.6, 0.25e-3, 0.1, 7750.0, 3.0), strict=True))
 RADII, FORCES, STD = [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], [0.2, 0.3, 0.2, 0.4]
+
+TRAVEL = [0.1e-3 * i for i in range(300)]
+PULL = [0.0] * 10 + [0.12] + [0.08 + 1e-4 * (i % 3) for i in range(289)]
+"""A made-up cut: nothing before contact, a peak, and a steady force [m], [N]."""
+
+RECORD = Path(tempfile.mkdtemp(prefix="wirecut-torture-"), "wire_0.2mm_1.csv")
+RECORD.write_text(
+    "Extension (mm),Load (N)\n"
+    + "".join(f"{1e3 * x:.4f},{y:.5f}\n" for x, y in zip(TRAVEL, PULL, strict=True))
+)
 
 BASE = {
     **SCENE,
@@ -50,10 +63,26 @@ OWN = {
     "identify": {
         **{"wire_radius": RADII, "wire_diameter": None, "toughness_max": None},
         **{"wear_strength": None, "toughness_prior": None, "wear_strength_prior": None},
-        **{"further_radii": None},
+        **{"further_radii": None, "relative_error": None, "sample": None},
+        **{"shear_modulus_std": 30.0, "friction_std": 0.02, "stiffening_std": 0.1},
     },
     "design_radii": {"force_std": 0.5, "relative_force_std": None, "expected": None},
-    "read_measurements": {"path": str(model_file("paam-wire-cutting.csv"))},
+    "read_measurements": {
+        "path": str(model_file("paam-wire-cutting.csv")),
+        **dict.fromkeys(("thickness", "decimal", "delimiter", "encoding")),
+    },
+    "read_record": {
+        "path": str(RECORD),
+        **dict.fromkeys(("specimen", "columns", "sign", "decimal", "delimiter", "encoding")),
+    },
+    "read_records": {
+        "path": str(RECORD),
+        **dict.fromkeys(("columns", "sign", "decimal", "delimiter", "encoding")),
+    },
+    "steady_force": {
+        **{"displacement": TRAVEL, "force": PULL, "start": None, "end": None},
+        **{"tare": 0.0, "tolerance": 0.05},
+    },
     "read_material": {"path": str(model_file("paam-material.json"))},
     "contact_functions": {"rtol": None},
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
@@ -68,6 +97,8 @@ CHOICES = {
         "wear_strength": {"wear_strength": 7e3},
         "toughness_prior": {"toughness_prior": (1.5, 0.5)},
         "wear_strength_prior": {"wear_strength_prior": (7e3, 1e3)},
+        "relative_error": {"force_std": None, "relative_error": 0.05},
+        "sample": {"sample": ["a", "a", "b", "b"]},
         "further_radii": {"toughness_max": 5.0, "further_radii": (1e-5, 1e-3)},
     },
     "design_radii": {
@@ -94,6 +125,9 @@ ALIASES = {
     "regime_map": ("coordinate", "range", "axis", "scale", "fixed", "map", "node", "limit"),
     "propagate": ("uncertain quantities", "correlations", "standard error", "dimensionless"),
     "read_measurements": ("file",),
+    "read_record": ("file", "record", "specimen", "column"),
+    "read_records": ("file", "record", "column"),
+    "steady_force": ("record", "displacement", "force", "range", "plateau"),
     "read_material": ("file",),
     "plot_regime_map": ("map", "points", "limit", "width"),
     "plot_identification": ("identification",),
