@@ -86,7 +86,8 @@ class Identification(Estimate):
     scale : float or None
         Standard error of a force of weight 1 [N/m] that was set against what forces share.
     friction_sensitivity : tuple of float
-        dGamma_o/dxi [J/m2] and dtau_w/dxi [Pa], to first order.
+        dGamma_o/dxi [J/m2] and dtau_w/dxi [Pa], to first order; nan where the force has no
+        derivative at the estimate, as at Gamma_o = 0.
     shear_modulus_std, friction_std, stiffening_std : float
         Their standard errors, as given [Pa], [-], [-].
     sample : None, or ndarray of int

@@ -156,12 +156,29 @@ def series_of_cuts(
         one_number(checks.STIFFENING_EXPONENT, exponent),
     )
     mu_std, xi_std, alpha_std = map(one_number, _STDS, stds)
+    _require_below("shear_modulus_std", "shear_modulus", values[0], mu_std)
+    _require_below("stiffening_std", "stiffening_exponent", values[2], alpha_std)
     numbers = _sample(sample, forces.size)
     return Cuts(radius, forces, std, *values, mu_std, xi_std, alpha_std, numbers)
 
 
 def _std(name: str, unit: str) -> Quantity:
     return Quantity(f"{name}_std", unit, "give a standard error of 0 or more", 0.0, _LARGEST)
+
+
+def _is_label(label: object) -> bool:
+    """Whether something can name a sample."""
+    if isinstance(label, str):
+        return len(label) < 1000
+    return isinstance(label, (int, np.integer)) and abs(int(label)) < 10**9
+
+
+def _require_below(name: str, of: str, value: float, std: float) -> None:
+    if std > value:
+        raise InputError(
+            f"{name} must be at most {of} itself, {value:g}, but is {std:g}; "
+            "give the standard error of what was measured."
+        )
 
 
 _STDS = (_std("shear_modulus", "Pa"), _std("friction", ""), _std("stiffening", ""))
@@ -171,7 +188,11 @@ RELATIVE_ERROR = Quantity("relative_error", "", "give 0.05 for forces known to 5
 def _sample(names: ArrayLike | None, cuts: int) -> NDArray[np.int64] | None:
     if names is None:
         return None
-    numbers = np.unique(np.asarray(names).astype(str), return_inverse=True)[1].reshape(-1)
+    plain = names.tolist() if isinstance(names, np.ndarray) else names
+    labels = checks.items("sample", plain, "['a', 'a', 'b']")
+    if not all(map(_is_label, labels)):
+        raise InputError("sample must hold short texts or whole numbers; give one name a cut.")
+    numbers = np.unique([str(label) for label in labels], return_inverse=True)[1].reshape(-1)
     if numbers.size != cuts:
         raise InputError(
             f"sample must name the sample of each cut, but names {numbers.size} for {cuts} cuts; "

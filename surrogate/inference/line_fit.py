@@ -117,8 +117,17 @@ def solve_with_shared(
     inverse: Array = np.eye(len(values))
     if factors:
         both = np.hstack(list(factors.values()))
-        inverse = np.asarray(np.linalg.inv(inverse + both @ both.T), dtype=float)
-    white = np.linalg.cholesky(inverse).T
+        try:
+            inverse = np.asarray(np.linalg.inv(inverse + both @ both.T), dtype=float)
+            white = np.linalg.cholesky(inverse).T
+        except np.linalg.LinAlgError:
+            raise InputError(
+                "what the forces share (the errors of mu, xi, alpha and of the model) must not "
+                "exceed their own errors by more than 1e7 times, but does; give the forces' errors "
+                "or smaller errors of the material."
+            ) from None
+    else:
+        white = inverse
     fit = solve_least_squares(white @ design, white @ values)
     estimator = fit.covariance @ design.T @ inverse
     parts = {"scatter": estimator, **{name: estimator @ each for name, each in factors.items()}}

@@ -60,7 +60,7 @@ class Profiled:
         """Return the smallest and the largest tau_w of a misfit up to the threshold."""
         with np.errstate(all="ignore"):
             room = np.maximum(threshold - self.free_misfit, 0.0) / self.curvature
-        half = np.where(self.curvature > 0.0, np.sqrt(room), np.inf)
+            half = np.where(self.curvature > 0.0, np.sqrt(room), np.inf)
         low = np.maximum(self.free_wear_strength - half, 0.0)
         return low, self.free_wear_strength + half
 

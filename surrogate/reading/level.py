@@ -231,6 +231,8 @@ def _running_mean(values: Array, size: int) -> Array:
 def _no_level(cells: Cells, tolerance: float) -> str:
     """Say why no stretch is level: the force rises or falls to the end, or something else."""
     under_load = np.flatnonzero(cells.force >= LOADED * np.max(cells.force))
+    if not under_load.size:
+        return "no force is above zero after the offset and the tare; check both, and the sign"
     last = cells.force[under_load[-1] + 1 - max(4, under_load.size // 4) : under_load[-1] + 1]
     slope = float(np.polyfit(np.arange(last.size), last, 1)[0])
     change = slope * last.size / max(abs(float(np.mean(last))), 5e-324)

@@ -8,6 +8,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate.basics.checks import shown
+from surrogate.basics.checks import text as checked_text
 from surrogate.basics.files import file_name
 from surrogate.basics.records import Record
 from surrogate.errors import InputError
@@ -108,6 +110,8 @@ def read_record(
         delimiter=delimiter,
         encoding=encoding,
     )
+    if specimen is not None and (type(specimen) is not int or not 0 < specimen <= 10**6):
+        raise InputError(f"specimen must be a whole number from 1 on, but is {shown(specimen)}.")
     if specimen is None and len(records) > 1:
         raise InputError(
             f"{file_name(path)} holds {len(records)} records; say which with specimen=1 to "
@@ -173,6 +177,9 @@ def read_records(
     >>> cut.force.tolist(), "compression negative, turned" in cut.understood
     ([0.0, 0.1], True)
     """
+    for name, value in (("columns", columns), ("sign", sign)):
+        if value is not None:
+            checked_text(name, value, "leave it out, or give a text")
     if sign not in (None, "positive", "negative"):
         raise InputError(f"sign {sign!r} is not known; choose 'positive' or 'negative'.")
     sheet = read_sheet(path, encoding, delimiter, decimal)

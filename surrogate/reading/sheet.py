@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Any, NamedTuple
 
+from surrogate.basics.checks import text as checked_text
 from surrogate.basics.extras import require_extra
 from surrogate.basics.files import file_name
 from surrogate.errors import InputError
@@ -117,6 +118,9 @@ def read_sheet(
     if pandas is not None and isinstance(source, pandas.DataFrame):
         rows = [list(source.columns), *source.itertuples(index=False, name=None)]
         return Sheet("the data frame", list(_rows_of(rows)), form="a data frame")
+    for name, value in (("encoding", encoding), ("delimiter", delimiter), ("decimal", decimal)):
+        if value is not None:
+            checked_text(name, value, "leave it out, or give a text")
     file = file_name(source)
     ending = PurePath(file).suffix.lower()
     if ending in (".xlsx", ".xlsm"):

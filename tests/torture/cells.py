@@ -27,6 +27,7 @@ PHRASES = ("must be a ratio with a limit", "has no limit", "has no answer", "mus
 """In errors about several arguments together, none of which is wrong by itself."""
 WRONG = ("other error", "warning", "wrong value", "nan", "argument not named", "hangs", "differs")
 MAY_BE_NAN = {  # by the documentation of each result
+    "friction_sensitivity",
     *("r_squared", "correlation", "reduced_chi_squared", "profile", "covariance", "leverage"),
     *("condition", "further_wire", "relative_error", "term_shares", "boundaries", "relative_force"),
 }
