@@ -197,7 +197,7 @@ def run_identify(options: argparse.Namespace) -> int:
         stiffening_std=_given(options.stiffening_std, 0.0),
         force_std=None if options.relative_error else measurements.force_std,
         relative_error=options.relative_error,
-        sample=getattr(measurements, "sample", None),
+        sample=measurements.samples,
         model=options.model,
         rtol=options.rtol,
         confidence=options.confidence,

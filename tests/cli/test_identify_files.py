@@ -121,3 +121,17 @@ def test_no_record_in_a_folder_is_overwritten(run, tmp_path, monkeypatch, comman
     assert {file.name: file.read_bytes() for file in (tmp_path / "cuts").iterdir()} == before
     for _ in range(2):  # an earlier table of ours may be replaced, and is no record
         assert main([command, where, *given, out, f"{where}/table.csv", *last]) == 0
+
+
+def test_named_samples_reach_the_fit(run, tmp_path):
+    rows = [
+        f"{sample},{d},{force + shift + more}"
+        for sample, shift in (("gel A", -0.3), ("gel B", 0.3), ("gel C", 0.05))
+        for d, force in ((0.2, 4.7), (0.4, 7.8), (0.8, 13.7))
+        for more in (-0.02, 0.02)
+    ]
+    header = "sample,wire_diameter_mm,force_per_thickness_N_per_m\n"
+    (tmp_path / "cuts.csv").write_text(header + "\n".join(rows) + "\n")
+    code, out, _ = run("identify", "cuts.csv", "--json")
+    assert code == 0
+    assert json.loads(out)["contributions"]["sample"][0] > 0.05
