@@ -199,7 +199,7 @@ def _chosen(design: CampaignDesign, only: Sequence[str]) -> list[Configuration]:
         name, _, value = text.partition("=")
         known: dict[str, tuple[Callable[[str], Any], Sequence[Any]]] = {
             "alpha": (float, design.alpha),
-            "level": (str, tuple(design.levels)),
+            "level": (str, design.names),
         }
         if name not in known:
             raise InputError(f"--only {text} is not understood; give alpha=VALUE or level=NAME.")
@@ -265,7 +265,7 @@ def _say_points(data: Campaign) -> None:
     """Say how many points may be used, and why the others may not."""
     points = data.points
     use = points["use"].astype(bool)
-    wanted = len(data.design.configurations()) // len(data.design.levels)
+    wanted = data.design.points
     _say(f"    {use.sum()} of {wanted} points within the bounds of their evidence")
     left_out = zip(points["alpha"][~use], points["g"][~use], points["reason"][~use], strict=True)
     for alpha, g, reason in left_out:

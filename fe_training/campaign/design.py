@@ -20,7 +20,17 @@ from fe_training.solver.solve import ALPHA_RANGE, G_RANGE
 from surrogate.basics.files import file_name
 from surrogate.errors import InputError
 
-__all__ = ["STRATEGIES", "CampaignDesign", "Configuration", "Denser", "Task", "read_design"]
+__all__ = [
+    "BLUNT",
+    "STRATEGIES",
+    "Beyond",
+    "Blunt",
+    "CampaignDesign",
+    "Configuration",
+    "Denser",
+    "Task",
+    "read_design",
+]
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -29,6 +39,9 @@ else:
 
 _SCHEMA = "wirecut-campaign-1"
 _MOST_NODES = 10_000
+
+#: Name of the level with a larger notch.
+BLUNT = "blunt"
 
 #: How the settings of a level are changed at each attempt: a failed configuration is tried again
 #: with the next one when the campaign is run again.
@@ -98,8 +111,57 @@ class Denser:
 
     def density(self, alpha: float, log_g: Any) -> Any:
         """Return the density of nodes at log10 g, relative to that far from the touch."""
-        touch = np.interp(alpha, self.alpha, np.log10(self.touch))
-        return 1.0 + self.peak * np.exp(-(((log_g - touch) / self.width) ** 2))
+        return 1.0 + self.peak * np.exp(-(((log_g - np.log10(self.at(alpha))) / self.width) ** 2))
+
+    def at(self, alpha: float) -> float:
+        """Return g at which the tip touches, log g interpolated linearly [-]."""
+        return float(10.0 ** np.interp(alpha, self.alpha, np.log10(self.touch)))
+
+
+@dataclass(frozen=True, slots=True)
+class Beyond:
+    """How far the nodes in g go on above the highest one that all alphas share.
+
+    Parameters
+    ----------
+    alpha : tuple of float
+        Stiffening exponents in rising order, from each of which on ... [-]
+    highest : tuple of float
+        ... g goes this far [-].
+    per_decade : int
+        Nodes in a decade of g there, evenly spaced in log g.
+    """
+
+    alpha: tuple[float, ...]
+    highest: tuple[float, ...]
+    per_decade: int
+
+    def nodes(self, alpha: float, above: float) -> tuple[float, ...]:
+        """Return the nodes of one alpha above a g, rising, none below the first exponent."""
+        reached = [highest for start, highest in zip(self.alpha, self.highest) if alpha >= start]
+        if not reached:
+            return ()
+        decades = math.log10(reached[-1] / above)
+        count = max(1, round(self.per_decade * decades))
+        return tuple(
+            float(f"{above * 10.0 ** (decades * (i + 1) / count):.4g}") for i in range(count)
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Blunt:
+    """A third level: the coarser mesh with a larger notch, for what depends on the size of the tip.
+
+    Parameters
+    ----------
+    notch_radius : float
+        Its notch [R_w].
+    share : float
+        It is solved from this share of the g on at which the tip begins to touch [-].
+    """
+
+    notch_radius: float
+    share: float
 
 
 @dataclass(frozen=True)
@@ -122,6 +184,10 @@ class CampaignDesign:
         The two meshes, the coarser one first.
     nodes : tuple of tuple of float, optional
         The nodes in g of each alpha, rising, where they are given one by one.
+    beyond : Beyond, optional
+        Nodes above `highest`, further for larger exponents.
+    blunt : Blunt, optional
+        The level with a larger notch, named "blunt".
     """
 
     alpha: tuple[float, ...]
@@ -132,6 +198,8 @@ class CampaignDesign:
     path_from: float
     levels: Mapping[str, Settings]
     nodes: tuple[tuple[float, ...], ...] | None = None
+    beyond: Beyond | None = None
+    blunt: Blunt | None = None
 
     @property
     def hash(self) -> str:
@@ -143,8 +211,11 @@ class CampaignDesign:
         """Return all numbers, defaults of the settings included, as plain dictionaries."""
         levels = [[name, asdict(settings)] for name, settings in self.levels.items()]
         numbers = {field.name: getattr(self, field.name) for field in fields(self)}
-        if self.nodes is None:
-            del numbers["nodes"]  # as if there were no such field, for the hash
+        for name in ("nodes", "beyond", "blunt"):
+            if numbers[name] is None:
+                del numbers[name]  # as if there were no such field, for the hash
+            elif name != "nodes":
+                numbers[name] = asdict(numbers[name])
         return {**numbers, "denser": asdict(self.denser), "levels": levels}
 
     @classmethod
@@ -155,6 +226,11 @@ class CampaignDesign:
         rest = {name: _plain(value) for name, value in numbers.items()}
         if "nodes" in numbers:
             rest["nodes"] = tuple(map(tuple, numbers["nodes"]))
+        if "beyond" in numbers:
+            beyond = {name: _plain(value) for name, value in numbers["beyond"].items()}
+            rest["beyond"] = Beyond(**beyond)
+        if "blunt" in numbers:
+            rest["blunt"] = Blunt(**numbers["blunt"])
         return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
 
     def g(self, alpha: float) -> tuple[float, ...]:
@@ -165,16 +241,34 @@ class CampaignDesign:
         density = self.denser.density(alpha, fine)
         share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
         nodes = np.interp(np.linspace(0.0, share[-1], self.count), share, fine)
-        return tuple(float(f"{10.0**node:.4g}") for node in nodes)
+        shared = tuple(float(f"{10.0**node:.4g}") for node in nodes)
+        return shared + (self.beyond.nodes(alpha, self.highest) if self.beyond else ())
+
+    @property
+    def points(self) -> int:
+        """Number of pairs of alpha and g."""
+        return sum(len(self.g(alpha)) for alpha in self.alpha)
 
     def configurations(self) -> list[Configuration]:
         """Return all configurations: level by level, in rising order of alpha and g."""
         return [
             Configuration(level, alpha, g)
-            for level in self.levels
+            for level in self.names
             for alpha in self.alpha
-            for g in self.g(alpha)
+            for g in self._g_of(level, alpha)
         ]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all levels: the two meshes, the coarser one first, and the blunt one."""
+        return (*self.levels, *((BLUNT,) if self.blunt else ()))
+
+    def _g_of(self, level: str, alpha: float) -> tuple[float, ...]:
+        """Return the nodes in g of one alpha that a level solves."""
+        if level in self.levels or self.blunt is None:
+            return self.g(alpha)
+        lowest = max(self.blunt.share * self.denser.at(alpha), self.path_from)
+        return tuple(g for g in self.g(alpha) if g >= lowest)
 
     def together(self, one: Configuration) -> list[Configuration]:
         """Return the configurations that are solved along one path with a given one, it included.
@@ -183,11 +277,14 @@ class CampaignDesign:
         """
         if one.target < self.path_from:
             return [one]
-        path = [Configuration(one.level, one.alpha, g) for g in self.g(one.alpha)]
+        path = [Configuration(one.level, one.alpha, g) for g in self._g_of(one.level, one.alpha)]
         return [other for other in path if other.target >= self.path_from]
 
     def settings(self, level: str, attempt: int) -> Settings:
         """Return the settings of a level at an attempt."""
+        if level == BLUNT and self.blunt:
+            first = next(iter(self.levels.values()))
+            return STRATEGIES[attempt](replace(first, notch_radius=self.blunt.notch_radius))
         return STRATEGIES[attempt](self.levels[level])
 
     def tasks(self, wanted: Iterable[tuple[Configuration, int]]) -> list[Task]:
@@ -203,7 +300,7 @@ class CampaignDesign:
                 paths.setdefault((attempt, one.level, one.alpha), []).append(one)
             else:
                 alone.append(Task((one,), attempt))
-        order = list(self.levels)
+        order = self.names
         tasks = [Task(tuple(several), key[0]) for key, several in paths.items()] + alone
         return sorted(
             tasks,
@@ -315,6 +412,7 @@ def _checked(table: _Table) -> CampaignDesign:
     alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
     path_from = table.number("path_from", 0.0, math.inf)
     g, levels = table.table("g"), table.table("levels")
+    blunt = _blunt(table.table("blunt")) if table.has("blunt") else None
     table.end()
     if g.has("nodes"):
         return _listed(alpha, path_from, g, _levels(levels))
@@ -324,6 +422,7 @@ def _checked(table: _Table) -> CampaignDesign:
         raise InputError(f"g.highest = {highest:g} is not above g.lowest = {lowest:g}.")
     count = g.integer("count", 2, _MOST_NODES)
     denser = g.table("denser")
+    beyond = _beyond(g.table("beyond"), highest) if g.has("beyond") else None
     g.end()
     at = denser.numbers("alpha", *ALPHA_RANGE, rising=True)
     touch = denser.numbers("touch", *G_RANGE, rising=False)
@@ -335,15 +434,42 @@ def _checked(table: _Table) -> CampaignDesign:
     peak, width = denser.number("peak", 0.0, 100.0), denser.number("width", 0.01, 10.0)
     denser.end()
     design = CampaignDesign(
-        alpha, lowest, highest, count, Denser(at, touch, peak, width), path_from, _levels(levels)
+        alpha,
+        lowest,
+        highest,
+        count,
+        Denser(at, touch, peak, width),
+        path_from,
+        _levels(levels),
+        beyond=beyond,
+        blunt=blunt,
     )
     for value in alpha:
-        if len(set(design.g(value))) < count:
+        if len(set(design.g(value)[:count])) < count:
             raise InputError(
                 f"g.count = {count} nodes between {lowest:g} and {highest:g} coincide in four "
                 "digits; give fewer."
             )
     return design
+
+
+def _beyond(table: _Table, above: float) -> Beyond:
+    alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
+    highest = table.numbers("highest", above, G_RANGE[1], rising=False)
+    per_decade = table.integer("per_decade", 1, 100)
+    table.end()
+    if len(highest) != len(alpha) or min(highest) <= above:
+        raise InputError(
+            f"g.beyond.highest is {list(highest)}; give one number above g.highest = {above:g} "
+            "for each of g.beyond.alpha."
+        )
+    return Beyond(alpha, highest, per_decade)
+
+
+def _blunt(table: _Table) -> Blunt:
+    blunt = Blunt(table.number("notch_radius", 1e-6, 0.1), table.number("share", 1e-3, 1e3))
+    table.end()
+    return blunt
 
 
 def _listed(

@@ -80,7 +80,7 @@ def make_surrogates(
         If there are too few points, or the file would be too large.
     """
     points = points_of(data, single_mesh)
-    wanted = len(data.design.alpha) * data.design.count
+    wanted = data.design.points
     say(f"    {len(points)} of {wanted} points, {len(np.unique(points.alpha))} alphas")
     fitted = fit(points, _about(data, points, wanted, single_mesh))
     others = points_of(off_grid, single_mesh=True) if off_grid else None
