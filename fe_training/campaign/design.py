@@ -138,7 +138,8 @@ class Beyond:
 
     def nodes(self, alpha: float, above: float) -> tuple[float, ...]:
         """Return the nodes of one alpha above a g, rising, none below the first exponent."""
-        reached = [highest for start, highest in zip(self.alpha, self.highest) if alpha >= start]
+        pairs = zip(self.alpha, self.highest, strict=True)
+        reached = [highest for start, highest in pairs if alpha >= start]
         if not reached:
             return ()
         decades = math.log10(reached[-1] / above)

@@ -129,7 +129,12 @@ def _run(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     complete(parser)
     options = parser.parse_args(arguments)
-    return options.run(options) or 0
+    if options.models is None:
+        return options.run(options) or 0
+    from surrogate.contact.shipped import in_use
+
+    with in_use(options.models):
+        return options.run(options) or 0
 
 
 class _Parser(OneLineParser):
@@ -175,6 +180,9 @@ def _parser() -> argparse.ArgumentParser:
             "--json",
             action="store_true",
             help="print JSON in SI units, null for what is unknown or infinite",
+        )
+        command.add_argument(
+            "--models", metavar="PATH", help="take the fitted models of this file or folder"
         )
         command.set_defaults(run=run)
     return parser

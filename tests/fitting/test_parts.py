@@ -35,7 +35,7 @@ def test_the_wedge_solves_its_equation():
 def test_the_wedge_at_the_ends_of_the_numbers():
     assert wedge_load(-math.inf) == 0.0
     at_zero = wedge_functions(-math.inf, 0.0)
-    assert list(at_zero.values()) == [0.0, 0.0, math.inf]
+    assert list(at_zero.values()) == [0.0, 0.0, math.inf, 0.0, 0.0]
     for log_g in LOG_G:
         alone = wedge_functions(float(log_g), wedge_load(float(log_g)))
         together = wedge_functions(LOG_G, wedge_load(LOG_G))
