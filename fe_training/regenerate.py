@@ -155,7 +155,7 @@ def _count(text: str) -> int:
 def _regenerate(options: argparse.Namespace) -> int:
     if (options.backend == "dask") != (options.scheduler is not None):
         raise InputError("--backend dask and --scheduler ADDRESS need each other; give both.")
-    from fe_training.campaign.design import read_design
+    from fe_training.campaign.design_file import read_design
     from fe_training.campaign.run import plan
     from fe_training.campaign.store import Store
     from fe_training.campaign.workers import Workers

@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 
 from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
-from surrogate.contact.coordinates import log_touch
+from surrogate.contact.coordinates import SLIP_QUANTITIES, log_touch
 from surrogate.contact.formula import arc_formula, distance_formula, load_formula
 
 __all__ = ["eq9_fits", "fit_blend"]
@@ -32,6 +32,7 @@ _UNIT, _NORM = 0.02, 16
 
 #: Eq. (9) is fitted from this g on, "much greater than 1" in the paper.
 _HIGH = 10.0
+_FARTHEST = 20.0
 _GAP_FLOOR = 2e-3  # below this, delta - 1 is not what delta is to be judged by
 
 
@@ -73,13 +74,27 @@ def fit_blend(
     misfits = {name: misfit_of(name) for name in points.names}
     misfits["distance"] = distance_misfit
     if start is not None:
-        return {name: _fitted(misfit, start[name], (_NORM,)) for name, misfit in misfits.items()}
+        return {
+            name: _fitted(misfit, start[name], (_NORM,), _farthest(name))
+            for name, misfit in misfits.items()
+        }
     norms = (2, 4, 8, _NORM)
-    return {name: _fitted(misfit, _START[name], norms) for name, misfit in misfits.items()}
+    return {
+        name: _fitted(misfit, _START[name], norms, _farthest(name))
+        for name, misfit in misfits.items()
+    }
+
+
+def _farthest(name: str) -> float:
+    """Return how far from 0 a constant may be: those of A* and B* are not all decided by them."""
+    return _FARTHEST if name in SLIP_QUANTITIES else np.inf
 
 
 def _fitted(
-    misfit: Callable[[Floats], Floats], start: tuple[float, ...], norms: tuple[int, ...]
+    misfit: Callable[[Floats], Floats],
+    start: tuple[float, ...],
+    norms: tuple[int, ...],
+    farthest: float,
 ) -> tuple[float, ...]:
     """Return the constants that make a misfit small, in one norm after the other."""
 
@@ -91,7 +106,8 @@ def _fitted(
 
     constants = np.array(start)
     for norm in norms:
-        constants = least_squares(raised, constants, max_nfev=500, args=(norm,)).x
+        bounds = -farthest, farthest
+        constants = least_squares(raised, constants, bounds=bounds, max_nfev=500, args=(norm,)).x
     return tuple(map(float, constants))
 
 

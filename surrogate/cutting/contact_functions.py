@@ -77,7 +77,7 @@ class ContactFunctions(Record):
         the wire they depend on the size of the tip, which is that of the finite elements' notch,
         5e-4 R_w. nan for the closed forms, which have none.
     slip_arc_std, slip_load_std : float, ndarray or None
-        Standard deviations of the two, like the others.
+        Standard deviations of the two [-], like the others.
 
     References
     ----------

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from designs import SMALL
 
-from fe_training.campaign.design import BLUNT, STRATEGIES, CampaignDesign, read_design
+from fe_training.campaign.design import BLUNT, STRATEGIES, CampaignDesign
+from fe_training.campaign.design_file import read_design
 from fe_training.solver.cut import Settings
 from surrogate.basics.files import model_file
 from surrogate.errors import InputError

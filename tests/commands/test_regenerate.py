@@ -18,7 +18,7 @@ from fe_training.campaign import check as checking
 from fe_training.campaign import run as running
 from fe_training.campaign.check import check_rows
 from fe_training.campaign.dataset import load_campaign, write_campaign
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import Store
 from fe_training.campaign.workers import Workers
 from fe_training.regenerate import main

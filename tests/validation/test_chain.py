@@ -9,12 +9,8 @@ import pytest
 from made_up import ALPHAS, G, slip_truth, truth
 
 from fe_training.campaign.dataset import load_campaign, write_campaign
-from fe_training.campaign.design import (
-    CampaignDesign,
-    Configuration,
-    Denser,
-    read_design,
-)
+from fe_training.campaign.design import CampaignDesign, Configuration, Denser
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import Row
 from fe_training.fitting.fit import fit
 from fe_training.fitting.points import ARC_FLOOR, points_of
