@@ -166,7 +166,7 @@ def cutting_force(
     total, cleavage, friction, wear, holds = apply(
         parts, scene.values(), (float, float, float, float, bool)
     )
-    return CuttingForce(total, cleavage, friction, wear, model, None, holds, model)
+    return CuttingForce(total, cleavage, friction, wear, chosen.name, None, holds, chosen.name)
 
 
 def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
