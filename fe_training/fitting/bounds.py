@@ -19,7 +19,7 @@ from fe_training.fitting.touch import Touch
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.contact.coordinates import QUANTITIES, coordinates, log_touch
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates, log_touch
 from surrogate.contact.process import GaussianProcess
 
 __all__ = ["fit_bounds", "left_out_errors"]
@@ -28,6 +28,9 @@ Floats = NDArray[np.float64]
 
 ALPHA_EDGES = (2.0, 3.0, 5.0, 9.0)
 G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0, 300.0, 1000.0)
+PROJECTED_TWIN = dict(zip(SLIP_QUANTITIES, QUANTITIES, strict=False))
+"""What the closed forms have in the place of A* and B*: A and B, whose errors count as theirs."""
+
 SAFETY = 2.0
 """How many times the largest error of a few dozen points of a cell the largest of all may be."""
 
@@ -61,9 +64,7 @@ def fit_bounds(
     left_out = left_out_errors(points, processes)
     errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
     for function in points.names:
-        # the closed forms have neither A* nor B*
-        closed = {"eq13": FORCE_MODELS["eq13"]} if function in QUANTITIES else {}
-        known = {**closed, **models}
+        known = {"eq13": FORCE_MODELS["eq13"], **models}
         found = {name: np.zeros([len(each) - 1 for each in edges]) for name in known}
         own = _own_errors(points, left_out[function], edges)
         for cell in np.ndindex(own.shape):
@@ -109,7 +110,8 @@ def _bend_error(
 
 
 def _apart(model: ForceModel, function: str, at: tuple[Floats, Floats], table: Floats) -> float:
-    value = model.contact((function,), *at)[0]
+    name = function if function in model.functions else PROJECTED_TWIN[function]
+    value = model.contact((name,), *at)[0]
     return float(np.max(np.abs(np.log(np.broadcast_to(value, table.shape) / table))))
 
 

@@ -87,6 +87,10 @@ class ForceModel(ABC):
         """Return the highest g at which the model holds at alpha [-]."""
         return self.g.upper
 
+    def ends(self, alpha: Any) -> tuple[Any, Any]:
+        """Return the lowest and the highest g at which the model holds at alpha [-]."""
+        return self.g.lower, self.highest_g(alpha)
+
     def stds(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
         """Return the standard deviations of the functions named; none where the model has none."""
         return []

@@ -70,12 +70,12 @@ class ContactFunctions(Record):
         Name of the model; "auto" where the points have several.
     chosen : str or ndarray of str
         Name of the model of each point.
-    slip_arc, slip_load : float or ndarray
+    slip_arc, slip_load : float, ndarray or None
         A* = int lambda dtheta and B* = int P lambda dtheta [-], with the stretch lambda of the face
         under the contact: the arc along which it slips, and the load times the slip. To first order
         in tau_w and xi the energy balance has them in the place of A and B. Where the tip touches
         the wire they depend on the size of the tip, which is that of the finite elements' notch,
-        5e-4 R_w. nan for the closed forms, which have none.
+        5e-4 R_w. None where the model has none, as the closed forms.
     slip_arc_std, slip_load_std : float, ndarray or None
         Standard deviations of the two [-], like the others.
 
@@ -99,8 +99,8 @@ class ContactFunctions(Record):
     in_domain: bool | NDArray[np.bool_]
     model: str
     chosen: str | NDArray[np.str_]
-    slip_arc: FloatOrArray = np.nan
-    slip_load: FloatOrArray = np.nan
+    slip_arc: FloatOrArray | None = None
+    slip_load: FloatOrArray | None = None
     slip_arc_std: FloatOrArray | None = None
     slip_load_std: FloatOrArray | None = None
 
@@ -221,9 +221,6 @@ def _evaluated(chosen: ForceModel, values: tuple[Any, Any]) -> ContactFunctions:
     stds = apply(stds_of, values, kinds) if chosen.uncertain else (None,) * len(names)
     columns = dict(zip(map(_column, names), found, strict=True))
     columns.update((f"{_column(name)}_std", std) for name, std in zip(names, stds, strict=True))
-    if "slip_arc" not in columns:
-        nothing = found[0] * np.nan
-        columns.update(slip_arc=nothing, slip_load=nothing)
     return ContactFunctions(**columns, in_domain=inside, model=chosen.name, chosen=chosen.name)
 
 

@@ -84,6 +84,7 @@ OWN = {
         **{"tare": 0.0, "tolerance": 0.05},
     },
     "read_material": {"path": str(model_file("paam-material.json"))},
+    "load_models": {"path": None},
     "contact_functions": {"rtol": None},
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
     "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},
