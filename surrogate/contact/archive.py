@@ -116,6 +116,8 @@ def _verified(file: Path) -> bytes:
             f"the fitted models must be read, but {error.filename} cannot be "
             f"({error.strerror}); {REMEDY}."
         ) from None
+    except ValueError as error:
+        raise InputError(f"{file} must name a file, but it cannot ({error}); {REMEDY}.") from None
     if [hashlib.sha256(content).hexdigest().encode()] != expected:
         raise InputError(
             f"{file} must match the checksum beside it, but it does not: it is damaged or "

@@ -280,7 +280,7 @@ def use(path: object = None) -> Fitted:
     if path is None:
         _in_use = None
         return shipped()
-    file = str(_file_at(file_name(path)).resolve())
+    file = os.path.abspath(_file_at(file_name(path)))
     fitted = read(file)
     _in_use = file
     return fitted
@@ -299,7 +299,7 @@ def in_use(path: object) -> Iterator[Fitted]:
 
 def _file_at(path: str) -> Path:
     """Return the file of models at a path, which may be its folder."""
-    return Path(path) / FILE if Path(path).is_dir() else Path(path)
+    return Path(path) / FILE if os.path.isdir(path) else Path(path)
 
 
 @cache
