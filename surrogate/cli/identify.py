@@ -148,7 +148,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_record_options(command)
 
 
-_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "columns")
+_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "columns")
 
 
 def _outputs(options: argparse.Namespace) -> dict[str, str | None]:

@@ -15,7 +15,7 @@ from surrogate.basics.records import number, table
 from surrogate.cli.common import DOUBTED, Record, print_record, quantity
 from surrogate.errors import InputError
 from surrogate.reading.cuts import Cut, cuts_of, measurements_of, record_files
-from surrogate.reading.units import FORCE, LENGTH, NUMBER
+from surrogate.reading.units import FORCE, LENGTH, NUMBER, SPEED
 from surrogate.reading.wires import Wire, wires_by_name, wires_by_table
 
 __all__ = ["add_record_options", "add_steady_options", "cuts_by_options", "run_steady"]
@@ -37,6 +37,7 @@ def add_record_options(command: argparse.ArgumentParser) -> None:
         help="change of force along a plateau that counts as none (default 0.05)",
     )
     add("--sign", choices=("positive", "negative"), help="how files count the force that cuts")
+    add("--speed", type=quantity(SPEED), metavar="V", help="of the cut, for files without travel")
     add("--columns", metavar="NAMES", help="names of all columns: time_s,displacement_mm,force_N")
 
 
@@ -74,6 +75,7 @@ def cuts_by_options(
         plateau | {"tare": options.tare or 0.0},
         columns=options.columns,
         sign=options.sign,
+        speed=options.speed,
         decimal=options.decimal,
         delimiter=options.delimiter,
         encoding=options.encoding,
@@ -170,10 +172,23 @@ def _text(record: Record) -> str:
         parts += [f"  {reason}" for reason in record["not_steady"]]
     parts += _notes(record["cuts"])
     parts += ["How the files were understood:"]
-    parts += [f"  {row['understood']}" for row in record["cuts"] if row["understood"]]
+    parts += _understood(record["cuts"])
     parts += [f"not a record: {', '.join(record['passed_over'])}"] * bool(record["passed_over"])
     parts += [f"Written: {record[name]}" for name in ("table", "picture") if record[name]]
     return "\n".join(parts)
+
+
+def _understood(rows: list[Record]) -> list[str]:
+    """Return how files were understood, once for all that were understood alike."""
+    places: dict[str, list[str]] = {}
+    for row in rows:
+        place, colon, text = row["understood"].partition(": ")
+        if colon:
+            places.setdefault(text, []).append(place)
+    return [
+        f"  {first}{f' and {len(others)} more' if others else ''}: {text}"
+        for text, (first, *others) in places.items()
+    ]
 
 
 def _cells(row: Record) -> list[str]:
