@@ -18,12 +18,13 @@ from surrogate.cli.common import (
     add_model_option,
     print_record,
     quantity,
+    share,
     wire_rows,
 )
 from surrogate.cutting.force import CuttingForce, cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, SPLIT_MODEL, Regime, classify
 from surrogate.errors import DomainError
-from surrogate.reading.units import LENGTH, NUMBER, STRESS, TOUGHNESS
+from surrogate.reading.units import LENGTH, STRESS, TOUGHNESS
 from surrogate.scene import Scene
 
 __all__ = [
@@ -186,7 +187,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     command.add_argument(
         "--threshold",
-        type=quantity(NUMBER),
+        type=share,
         default=DOMINANT_SHARE,
         metavar="SHARE",
         help="share of the force from which a term dominates (default 2/3)",

@@ -10,7 +10,7 @@ from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
 from surrogate.cli import map as cli_map
-from surrogate.cli.common import print_record, quantity
+from surrogate.cli.common import print_record
 from surrogate.cli.force import (
     add_force_options,
     add_regime_options,
@@ -19,7 +19,9 @@ from surrogate.cli.force import (
     run_regime,
 )
 from surrogate.cli.identify import add_identify_options, run_identify
+from surrogate.cli.language import in_options
 from surrogate.cli.steady import add_steady_options, run_steady
+from surrogate.errors import WirecutError
 
 _UNITS = """\
 Quantities carry their unit, without a space or in quotes: 0.2mm, "0.2 mm", 7.75kPa, 1.6J/m2.
@@ -129,7 +131,10 @@ def _run(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     complete(parser)
     options = parser.parse_args(arguments)
-    return options.run(options) or 0
+    try:
+        return options.run(options) or 0
+    except WirecutError as error:
+        raise WirecutError(in_options(str(error), options.parser)) from error
 
 
 class _Parser(OneLineParser):
@@ -165,7 +170,7 @@ def _parser() -> argparse.ArgumentParser:
         ("steady", add_steady_options, run_steady),
         ("identify", add_identify_options, run_identify),
         ("regime", add_regime_options, run_regime),
-        ("map", lambda command: cli_map.add_options(command, quantity), run_map),
+        ("map", lambda command: cli_map.add_options(command), run_map),
         ("models", lambda command: None, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):
@@ -176,7 +181,7 @@ def _parser() -> argparse.ArgumentParser:
             action="store_true",
             help="print JSON in SI units, null for what is unknown or infinite",
         )
-        command.set_defaults(run=run)
+        command.set_defaults(run=run, parser=command)
     return parser
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from textwrap import fill
 from types import MappingProxyType
@@ -13,6 +13,7 @@ import numpy as np
 
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
+from surrogate.cli.common import share, whole_number
 from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
@@ -127,9 +128,7 @@ examples:
 """
 
 
-def add_options(
-    command: argparse.ArgumentParser, quantity: Callable[[Dimension], Callable[[str], float]]
-) -> None:
+def add_options(command: argparse.ArgumentParser) -> None:
     """Add the options of the command to its parser."""
     add = command.add_argument
     add("--preset", choices=PRESETS, metavar="PRESET", help="a map that is often wanted, see below")
@@ -143,8 +142,14 @@ def add_options(
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
         ("--rtol", "ERROR", 0.02, "error that will do with --model auto (default 0.02)"),
     ):
-        add(option, type=quantity(NUMBER), default=default, metavar=metavar, help=words)
-    add("--nodes", type=int, default=201, metavar="N", help="nodes of each axis (default 201)")
+        add(option, type=share, default=default, metavar=metavar, help=words)
+    add(
+        "--nodes",
+        type=whole_number,
+        default=201,
+        metavar="N",
+        help="nodes of each axis (default 201)",
+    )
     add("--limits", nargs="+", default=[], metavar="MODEL", help="limits whose end is drawn")
     add("--error-of", metavar="MODEL", help="show this model's error beside the map's model")
     add("--no-contact", action="store_true", help="leave out where the wire touches the tip")
@@ -163,6 +168,9 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
             "--boundaries-csv": options.boundaries_csv,
         }
     )
+    for option, value in (("--limits", options.limits), ("--error-of", options.error_of)):
+        if value and not options.out:
+            raise InputError(f"{option} is for the picture; give --out as well, or leave it out.")
     made = run_map(options)
     preset = PRESETS.get(options.preset)
     if options.out:

@@ -12,10 +12,10 @@ import numpy as np
 from surrogate.basics.figures import picture_file
 from surrogate.basics.files import check_outputs, write_csv
 from surrogate.basics.records import number, table
-from surrogate.cli.common import DOUBTED, Record, print_record, quantity
+from surrogate.cli.common import DOUBTED, Record, print_record, quantity, share
 from surrogate.errors import InputError
 from surrogate.reading.cuts import Cut, cuts_of, measurements_of, record_files
-from surrogate.reading.units import FORCE, LENGTH, NUMBER, SPEED
+from surrogate.reading.units import FORCE, LENGTH, SPEED
 from surrogate.reading.wires import Wire, wires_by_name, wires_by_table
 
 __all__ = ["add_record_options", "add_steady_options", "cuts_by_options", "run_steady"]
@@ -26,12 +26,29 @@ def add_record_options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--name", metavar="PATTERN", help="how files are named: 'wire_{diameter}mm_{trial}'")
     add("--wires", metavar="TABLE", help="table of file and wire_diameter_mm, instead of --name")
-    add("--tare", type=quantity(FORCE), metavar="F", help="constant force to subtract (default 0)")
-    add("--from", dest="start", type=quantity(LENGTH), metavar="X", help="begin of the plateau")
-    add("--to", dest="end", type=quantity(LENGTH), metavar="X", help="end of the plateau")
+    add(
+        "--tare",
+        type=quantity(FORCE, signed=True),
+        metavar="F",
+        help="constant force to subtract (default 0)",
+    )
+    add(
+        "--from",
+        dest="start",
+        type=quantity(LENGTH, signed=True),
+        metavar="X",
+        help="begin of the plateau",
+    )
+    add(
+        "--to",
+        dest="end",
+        type=quantity(LENGTH, signed=True),
+        metavar="X",
+        help="end of the plateau",
+    )
     add(
         "--tolerance",
-        type=quantity(NUMBER),
+        type=share,
         default=0.05,
         metavar="PART",
         help="change of force along a plateau that counts as none (default 0.05)",

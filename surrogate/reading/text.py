@@ -118,5 +118,6 @@ def _decoded(file: str, raw: bytes, codec: str, name: str) -> str:
         line = raw[: getattr(error, "start", 0)].count(b"\n") + 1
         raise InputError(
             f"{file}, line {line} is no text in {name} (byte {getattr(error, 'start', 0) + 1} of "
-            "the file); name its encoding (--encoding, encoding=) or save it as 'CSV UTF-8'."
+            "the file); name its encoding by --encoding (encoding= in Python) or save it as 'CSV "
+            "UTF-8'."
         ) from None

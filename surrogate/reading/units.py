@@ -191,6 +191,11 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     """
     match = _QUANTITY.fullmatch(text.strip())
     unit = dimension.unit(match["unit"]) if match and match["unit"] else SI
+    if match is None and text.strip() and dimension.unit(text):
+        unit_alone = text.strip()
+        raise InputError(
+            f"{text!r} is a unit without its number; write both as one, such as 1.5{unit_alone}."
+        )
     if match is None or unit is None:
         raise InputError(f"{text!r} is not {dimension.name}; {dimension.remedy}.")
     return _scaled(match, unit)
