@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from textwrap import fill
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -111,6 +112,18 @@ def print_record(
         print(json.dumps(_finite(record), indent=2, allow_nan=False))
         return
     print(text(record))
+
+
+def print_answer(options: argparse.Namespace, record: Record, text: Callable[[Record], str]) -> int:
+    """Print an answer and what is doubted about it, and return the exit code."""
+    doubts = record["warnings"]
+    print_record(options, record, lambda record: "\n".join([text(record), *_warnings(doubts)]))
+    return DOUBTED if doubts else 0
+
+
+def _warnings(doubts: Sequence[str]) -> Iterator[str]:
+    for doubt in doubts:
+        yield fill(f"Warning: {doubt}.", 96, subsequent_indent="  ")
 
 
 def _finite(value: Any) -> Any:

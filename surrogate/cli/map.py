@@ -18,6 +18,7 @@ from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
 from surrogate.maps.axes import COORDINATES, coordinate
+from surrogate.maps.belonging import require_the_same
 from surrogate.maps.make import RegimeMap, regime_map
 from surrogate.maps.points import MapPoints
 from surrogate.maps.tables import map_summary
@@ -172,14 +173,14 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
         if value and not options.out:
             raise InputError(f"{option} is for the picture; give --out as well, or leave it out.")
     made = run_map(options)
-    preset = PRESETS.get(options.preset)
+    points, notes = _points(PRESETS.get(options.preset), made)
     if options.out:
         from surrogate.maps.figure import save_regime_map
 
         save_regime_map(
             made,
             options.out,
-            _example() if preset is not None and preset.example else (),
+            points,
             limits=options.limits,
             contact=not options.no_contact,
             error_of=options.error_of,
@@ -190,7 +191,9 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     if options.boundaries_csv:
         made.boundaries_to_csv(options.boundaries_csv)
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
-    return {**map_summary(made), "files": files}
+    return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | (
+        {"notes": notes} if options.out else {"notes": []}
+    )
 
 
 def map_text(made: dict[str, Any]) -> str:
@@ -220,6 +223,7 @@ def map_text(made: dict[str, Any]) -> str:
         f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
         table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
     ]
+    parts += [f"Note: {note}" for note in made["notes"]]
     if made["files"]:
         parts.append(f"Written: {', '.join(made['files'])}")
     return "\n\n".join(parts)
@@ -265,6 +269,19 @@ def _fixed(items: list[str]) -> dict[str, float]:
         one = coordinate(name.strip())
         fixed[one.name] = parse_quantity(text, _DIMENSIONS[one.unit])
     return fixed
+
+
+def _points(preset: Preset | None, made: RegimeMap) -> tuple[list[MapPoints], list[str]]:
+    """Return what a preset has to draw on a map, or a note why that does not belong there."""
+    if preset is None or not preset.example:
+        return [], []
+    points = _example()
+    try:
+        for one in points:
+            require_the_same(one, made)
+    except InputError as error:
+        return [], [f"the experiment is left out of the picture: {error}"]
+    return points, []
 
 
 def _example() -> list[MapPoints]:
