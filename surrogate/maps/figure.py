@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from surrogate.basics.checks import flag, items, shown
 from surrogate.basics.figures import (
     figure_width,
+    in_style,
     new_axes,
     new_figure,
     picture_file,
@@ -141,6 +142,7 @@ def plot_regime_map(
     return ax
 
 
+@in_style
 def save_regime_map(
     made: MapRecord,
     file: str | PathLike[str],

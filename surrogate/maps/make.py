@@ -313,11 +313,12 @@ def _pair(axis: Mapping[str, Any]) -> str:
 def _picture(made: MapRecord) -> str:
     from io import StringIO
 
-    from surrogate.basics.figures import new_figure, write_svg
+    from surrogate.basics.figures import new_figure, style, write_svg
     from surrogate.maps.figure import plot_regime_map
 
-    figure = new_figure((3.4, 3.5))
-    plot_regime_map(made, figure.add_subplot())
     stream = StringIO()
-    write_svg(figure, stream)
+    with style():
+        figure = new_figure((3.4, 3.5))
+        plot_regime_map(made, figure.add_subplot())
+        write_svg(figure, stream)
     return stream.getvalue()[stream.getvalue().index("<svg") :]
