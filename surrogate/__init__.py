@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from surrogate.errors import (
     AccuracyError,
     DomainError,
+    ImplausibleInputWarning,
     InputError,
     UnknownModelError,
     WirecutError,
@@ -72,6 +73,7 @@ __all__ = [
     "DomainError",
     "ForceGradient",
     "Identification",
+    "ImplausibleInputWarning",
     "InputError",
     "MapPoints",
     "Material",

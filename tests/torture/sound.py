@@ -73,11 +73,13 @@ OWN = {
     },
     "read_record": {
         "path": str(RECORD),
-        **dict.fromkeys(("specimen", "columns", "sign", "decimal", "delimiter", "encoding")),
+        **dict.fromkeys(
+            ("specimen", "columns", "sign", "speed", "decimal", "delimiter", "encoding")
+        ),
     },
     "read_records": {
         "path": str(RECORD),
-        **dict.fromkeys(("columns", "sign", "decimal", "delimiter", "encoding")),
+        **dict.fromkeys(("columns", "sign", "speed", "decimal", "delimiter", "encoding")),
     },
     "steady_force": {
         **{"displacement": TRAVEL, "force": PULL, "start": None, "end": None},
