@@ -71,6 +71,8 @@ def model_card(fitted: Fitted, found: Validation) -> str:
         + _sample_name(found)
         + ", over all ratios and xi.",
         _promises(found),
+        "## Above the highest g",
+        *_beyond(found),
         "## The formula",
         *_formula(fitted),
         "## Eq. (9) alpha by alpha",
@@ -245,6 +247,26 @@ def _promises(found: Validation) -> str:
         for line in found.promises
     ]
     return markdown_table(head, rows)
+
+
+def _beyond(found: Validation) -> Iterable[str]:
+    yield (
+        "There the models are continued: A stays, B, A* and B* go on as powers of g with the slope "
+        "that they have at the end, delta goes to R_w."
+    )
+    if found.beyond is None:
+        yield "No solution there says how far that is off; the error is unknown."
+        return
+    yield (
+        f"Largest relative errors at {found.beyond.count} solutions that no fit has seen, up to "
+        f"{found.beyond.factor:.2g} times the highest g. Farther on the error is unknown."
+    )
+    names = [name for name in _SYMBOLS if name in found.beyond.errors["table"]]
+    rows = [
+        (model, *(_percent(errors[name]) for name in names))
+        for model, errors in found.beyond.errors.items()
+    ]
+    yield markdown_table(("model", *(_SYMBOLS[name] for name in names)), rows)
 
 
 def _formula(fitted: Fitted) -> Iterable[str]:

@@ -23,11 +23,13 @@ __all__ = [
     "RATIOS",
     "SHORT",
     "XIS",
+    "Continued",
     "Errors",
     "Validation",
     "by_strength",
     "calibration",
     "contact_errors",
+    "continued",
     "finite_element_errors",
     "force_errors",
     "promises",
@@ -274,6 +276,55 @@ def _promised(
 
 
 @dataclass(frozen=True, slots=True)
+class Continued:
+    """How far the models are off above the highest g, where their asymptotes continue them.
+
+    Parameters
+    ----------
+    count : int
+        Solutions above the highest g at their alpha; none of them was used in fitting.
+    factor : float
+        How many times the highest g they reach [-].
+    errors : mapping of str to mapping of str to float
+        By model and function, the largest relative error [-].
+    """
+
+    count: int
+    factor: float
+    errors: Mapping[str, Mapping[str, float]]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return what goes into the file of the models."""
+        return {"count": self.count, "factor": self.factor, "errors": self.errors}
+
+
+def continued(fitted: Fitted, points: FitPoints) -> Continued | None:
+    """Return the errors at points above the highest g; None where there are none.
+
+    Parameters
+    ----------
+    fitted : Fitted
+        The models, fitted without these points.
+    points : FitPoints
+        Where the truth is known; those outside otherwise do not count.
+    """
+    first, last = fitted.limits.alpha
+    highest = fitted.limits.highest_g(points.alpha)
+    some = points.taken((points.g > highest) & (points.alpha >= first) & (points.alpha <= last))
+    if not len(some):
+        return None
+    errors = {
+        name: {
+            function: float(np.max(np.abs(error)))
+            for function, error in contact_errors(model, some).items()
+        }
+        for name, model in fitted.models.items()
+    }
+    factor = float(np.max(some.g / fitted.limits.highest_g(some.alpha)))
+    return Continued(len(some), factor, errors)
+
+
+@dataclass(frozen=True, slots=True)
 class Validation:
     """All that was found out about the errors of fitted models; see `validation`.
 
@@ -293,6 +344,8 @@ class Validation:
         Of "auto" for each rtol.
     table_from_process : mapping
         By function, the largest relative difference of the table from the process.
+    beyond : Continued or None
+        Errors of what continues the models above their highest g; None without such solutions.
     """
 
     one_out: Mapping[str, Any]
@@ -303,3 +356,4 @@ class Validation:
     calibration: Mapping[str, Mapping[str, Mapping[str, float]]]
     promises: list[dict[str, Any]]
     table_from_process: Mapping[str, float]
+    beyond: Continued | None = None

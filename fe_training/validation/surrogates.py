@@ -26,6 +26,7 @@ from fe_training.validation.model_errors import (
     by_strength,
     calibration,
     contact_errors,
+    continued,
     finite_element_errors,
     promises,
     summary,
@@ -84,7 +85,8 @@ def make_surrogates(
     fitted = fit(points, _about(data, points, wanted, single_mesh))
     others = points_of(off_grid, single_mesh=True) if off_grid else None
     found = validation(fitted, points, others)
-    fitted = replace(fitted, about={**fitted.about, "errors": _told(found)})
+    told = {"errors": _told(found), "beyond": found.beyond.as_dict() if found.beyond else None}
+    fitted = replace(fitted, about={**fitted.about, **told})
     file = write_fitted(out, fitted)
     size = file.stat().st_size
     if size > LARGEST_FILE:
@@ -126,7 +128,11 @@ def validation(fitted: Fitted, points: FitPoints, off_grid: FitPoints | None) ->
     shares["left out with their alpha"] = _left_out_shares(fitted, points, points.alpha)
     bars = {"campaign": _bars(points)}
     judged, errors = points, alpha_out
+    above = None
     if off_grid is not None:
+        inside = fitted.limits.holds(off_grid.g, off_grid.alpha)
+        above = continued(fitted, off_grid.taken(~inside))
+        off_grid = off_grid.taken(inside)
         bars["off the grid"] = _bars(off_grid)
         judged = off_grid
         errors = {name: contact_errors(model, off_grid) for name, model in models.items()}
@@ -141,6 +147,7 @@ def validation(fitted: Fitted, points: FitPoints, off_grid: FitPoints | None) ->
         calibration=shares,
         promises=promises(fitted, judged, _RTOLS, slack),
         table_from_process=_table_from_process(fitted),
+        beyond=above,
     )
 
 

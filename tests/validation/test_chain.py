@@ -25,6 +25,9 @@ from surrogate.contact.shipped import read
 from surrogate.errors import InputError
 
 LEVELS = read_design(model_file("campaign.toml")).levels
+BEYOND = 90.0
+"""A g above all that the models are fitted to."""
+
 SECTORS = {name: settings.sectors for name, settings in LEVELS.items()}
 
 
@@ -86,6 +89,7 @@ def data(tmp_path_factory):
     random = np.random.default_rng(0)
     alpha = np.sort(random.uniform(2.0, 9.0, 12))
     nodes = [np.sort(np.exp(random.uniform(np.log(5e-3), np.log(60), 6))) for _ in alpha]
+    nodes = [np.append(each, BEYOND) for each in nodes]
     write(folder / "off-grid.h5", design_of(alpha.tolist(), [n.tolist() for n in nodes]))
     return folder
 
@@ -123,6 +127,20 @@ def test_the_file_tells_where_it_is_from(made):
     off_grid = about["errors"]["off the grid"]
     assert off_grid["gp"]["force"]["count"] == 72 * 30
     json.dumps(about)
+
+
+def test_what_continues_the_models_is_held_against_solutions_above_the_highest_g(made):
+    fitted = read(str(made / "surrogates.npz"))
+    above = fitted.about["beyond"]
+    assert above["count"] == 12
+    assert above["factor"] == pytest.approx(BEYOND / G.max(), rel=1e-4)
+    off_grid = load_campaign(made / "off-grid.h5").points
+    here = off_grid["g"] == BEYOND
+    alpha, truly = off_grid["alpha"][here], off_grid["slip_load"][here]
+    (load,) = fitted.models["table"].contact(("slip_load",), off_grid["g"][here], alpha)
+    worst = np.max(np.abs(load / truly - 1.0))
+    assert above["errors"]["table"]["slip_load"] == pytest.approx(worst, rel=1e-6)
+    assert "up to 1.5 times the highest g" in (made / "model-card.md").read_text()
 
 
 def test_the_card_has_every_table_and_no_gap(made):
