@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from surrogate.basics.checks import RTOL, one_number
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.contact.base import ForceModel
-from surrogate.contact.fitted import FittedModel
+from surrogate.contact.fitted import TERMS_OF_LAW, FittedModel
 from surrogate.errors import AccuracyError
 
 __all__ = ["contact_bounds", "contact_std", "one_model"]
@@ -52,7 +52,8 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
 
     points = np.broadcast_arrays(g, alpha)
     bounds = available()[1]
-    found = (bounds.at(model.name, name, *points) for name in ("arc", "normal_load"))
+    names = TERMS_OF_LAW[model.law]
+    found = (bounds.at(model.name, name, *points) for name in names)
     arc, load = (np.asarray(np.expm1(each)) for each in found)
     return arc, load
 
@@ -88,7 +89,7 @@ def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None
     bounds = None if model.uncertain else contact_bounds(model, g, alpha)
     if bounds is None:
         return model.contact_std(g, alpha)
-    values = model.contact(("arc", "normal_load"), g, alpha)
+    values = model.arc(g, alpha), model.normal_load(g, alpha)
     arc, load = (
         np.where(np.isfinite(bound), value * bound / np.sqrt(3.0), np.nan)
         for value, bound in zip(values, bounds, strict=True)

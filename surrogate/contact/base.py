@@ -41,6 +41,11 @@ class ForceModel(ABC):
     g: Quantity = DIMENSIONLESS_TOUGHNESS  # and the g
     uncertain = False  # whether it knows its standard deviations
     functions: tuple[str, ...] = QUANTITIES  # the names that `contact` takes
+    rubbing: tuple[str, str] = QUANTITIES[:2]  # those of them that wear and friction follow
+    law = "projected"
+
+    def __str__(self) -> str:
+        return self.name if self.law == "projected" else f"{self.name}, law {self.law}"
 
     @abstractmethod
     def arc(self, g: Any, alpha: Any) -> Any:
@@ -99,7 +104,7 @@ class ForceModel(ABC):
         """Return the standard deviations of A and B [-], or None where the model knows none."""
         if not self.uncertain:
             return None
-        arc, load = self.stds(("arc", "normal_load"), g, alpha)
+        arc, load = self.stds(self.rubbing, g, alpha)
         return arc, load
 
     @abstractmethod

@@ -138,7 +138,7 @@ class FittedModel(ForceModel):
         return self if law == self.law else replace(self, law=law)  # type: ignore[type-var]
 
     @property
-    def _terms(self) -> tuple[str, str]:
+    def rubbing(self) -> tuple[str, str]:  # type: ignore[override]
         """Names of the functions that wear and friction follow."""
         return TERMS_OF_LAW[self.law]
 
@@ -166,10 +166,10 @@ class FittedModel(ForceModel):
         return self.limits.alpha_quantity
 
     def arc(self, g: Any, alpha: Any) -> Any:
-        return self.contact((self._terms[0],), g, alpha)[0]
+        return self.contact((self.rubbing[0],), g, alpha)[0]
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
-        return self.contact((self._terms[1],), g, alpha)[0]
+        return self.contact((self.rubbing[1],), g, alpha)[0]
 
     def distance(self, g: Any, alpha: Any) -> Any:
         return self.contact((_DISTANCE,), g, alpha)[0]
@@ -236,10 +236,10 @@ class FittedModel(ForceModel):
         return where(log_g < low, below, above)
 
     def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(self._terms[0], g, alpha)
+        return self.slopes(self.rubbing[0], g, alpha)
 
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(self._terms[1], g, alpha)
+        return self.slopes(self.rubbing[1], g, alpha)
 
     def slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
         """Return the derivatives of a function by g and alpha; infinite in g where g is 0."""
@@ -295,7 +295,7 @@ class FittedModel(ForceModel):
         if not _any(beyond):
             return friction
         log_alpha = self.limits.clamped(0.0, log(alpha))[1]
-        excess = log_touch(self.limits.growth[self._terms[1]], log_alpha) - 1.0
+        excess = log_touch(self.limits.growth[self.rubbing[1]], log_alpha) - 1.0
         log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
         with np.errstate(all="ignore"):
             power = exp(excess * (log_g - self.limits.log_highest(log_alpha)))

@@ -10,8 +10,11 @@ from surrogate.basics.checks import FloatOrArray, defined, flag
 from surrogate.basics.elementwise import apply
 from surrogate.basics.records import Record
 from surrogate.choosing.accuracy import one_model
-from surrogate.choosing.by_name import AUTO, FITTED_NAMES
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
+from surrogate.contact.fitted import FittedModel
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import NAMES, Scene, require_scene
 
@@ -65,7 +68,11 @@ class ForceGradient(Record):
 
 
 def force_gradient(
-    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
+    scene: Scene,
+    model: str | ForceModel = AUTO,
+    rtol: float = 0.02,
+    extrapolate: bool = False,
+    law: str = PROJECTED,
 ) -> ForceGradient:
     """Return the analytic derivatives of the cutting force by every quantity of a scene.
 
@@ -93,6 +100,8 @@ def force_gradient(
         and tau_w; of the slopes of A and B, which are in the others, no error is known.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
 
     Returns
     -------
@@ -141,9 +150,9 @@ def force_gradient(
     >>> slope.model, slope.toughness < 0.5
     ('table', True)
     """
-    chosen, extrapolate = one_model(model, rtol), flag("extrapolate", extrapolate)
+    chosen, extrapolate = one_model(of_law(model, law), rtol), flag("extrapolate", extrapolate)
     require_scene(scene)
-    if chosen.name not in FITTED_NAMES:
+    if not isinstance(chosen, FittedModel):
         chosen.stiffening.checked(scene.stiffening_exponent)
     elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
         mu, gamma, radius, _, _, alpha = scene.values()

@@ -19,6 +19,8 @@ from surrogate.basics.checks import (
 from surrogate.basics.elementwise import apply, product, ratio
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
@@ -92,9 +94,10 @@ class Regime(Record):
 def classify(
     scene: Scene,
     threshold: float = DOMINANT_SHARE,
-    model: str = AUTO,
+    model: str | ForceModel = AUTO,
     rtol: float = 0.02,
     extrapolate: bool = False,
+    law: str = PROJECTED,
 ) -> Regime:
     """Return which term of the force dominates, and whether the wire touches the crack tip.
 
@@ -111,6 +114,8 @@ def classify(
         Relative error of the force that will do with "auto" [-].
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
 
     Returns
     -------
@@ -163,6 +168,7 @@ def classify(
     require_scene(scene)
     share = one_number(THRESHOLD, threshold)
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
+    model = of_law(model, law)
     split = isinstance(model, str) and model == SPLIT_MODEL
     force = None if split else force_of(scene, model, rtol, extrapolate)
     regime = regime_of(scene, force, share, model)
@@ -170,7 +176,9 @@ def classify(
     return regime
 
 
-def regime_of(scene: Scene, force: CuttingForce | None, share: float, model: str) -> Regime:
+def regime_of(
+    scene: Scene, force: CuttingForce | None, share: float, model: str | ForceModel
+) -> Regime:
     """Return the regime of a scene whose force by the model is known; "eq13" needs none.
 
     Examples
@@ -196,7 +204,9 @@ def regime_of(scene: Scene, force: CuttingForce | None, share: float, model: str
     return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share)
 
 
-def term_shares(scene: Scene, force: CuttingForce, model: str) -> dict[str, FloatOrArray]:
+def term_shares(
+    scene: Scene, force: CuttingForce, model: str | ForceModel
+) -> dict[str, FloatOrArray]:
     """Return the share of the force [-] that each term has, by the names that `classify` uses.
 
     The force is that of the scene by the model. A share is nan where it is 0 or overflows.
@@ -220,7 +230,7 @@ def term_shares(scene: Scene, force: CuttingForce, model: str) -> dict[str, Floa
     return dict(zip(names[1:], found, strict=True))
 
 
-def touching_toughness(model: str, alpha: FloatOrArray) -> FloatOrArray:
+def touching_toughness(model: str | ForceModel, alpha: FloatOrArray) -> FloatOrArray:
     """Return g above which the wire touches the crack tip [-]: the model's own, or else 1.
 
     Examples

@@ -44,6 +44,7 @@ from surrogate.basics.elementwise import (
 from surrogate.basics.roots import narrowed
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import DomainError
@@ -57,7 +58,9 @@ __all__ = [
 ]
 
 
-def transition_radius(scene: Scene, model: str = AUTO, rtol: float = 0.02) -> FloatOrArray:
+def transition_radius(
+    scene: Scene, model: str | ForceModel = AUTO, rtol: float = 0.02, law: str = PROJECTED
+) -> FloatOrArray:
     """Return the radius at which the two parts of the force are equal, those of Eq. (13) or others.
 
     The force is homogeneous of degree one in toughness and radius, so that by Euler's theorem it
@@ -76,6 +79,8 @@ def transition_radius(scene: Scene, model: str = AUTO, rtol: float = 0.02) -> Fl
     rtol : float, default 0.02
         Relative error of A and B that will do with "auto" [-]; that of the radius, in which their
         slopes play a part, is not known.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
 
     Returns
     -------
@@ -122,7 +127,7 @@ def transition_radius(scene: Scene, model: str = AUTO, rtol: float = 0.02) -> Fl
         scene.friction_coefficient,
         scene.wear_strength,
     )
-    chosen = one_model(model, rtol)
+    chosen = one_model(of_law(model, law), rtol)
     if chosen.name == "eq13":
         radius = apply(_transition, quantities)
     else:

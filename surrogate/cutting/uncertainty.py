@@ -21,6 +21,7 @@ from surrogate.basics.elementwise import apply, quotient
 from surrogate.basics.records import Shown
 from surrogate.choosing.accuracy import contact_std, one_model
 from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import force_of
 from surrogate.cutting.gradient import force_gradient
@@ -81,11 +82,12 @@ class UncertainForce(Shown):
 def propagate(
     scene: Scene,
     std: Mapping[str, ArrayLike],
-    model: str = AUTO,
+    model: str | ForceModel = AUTO,
     rtol: float = 0.02,
     extrapolate: bool = False,
     *,
     correlation: Correlations | None = None,
+    law: str = PROJECTED,
 ) -> UncertainForce:
     """Return the cutting force with its standard deviation, from those of the scene's quantities.
 
@@ -111,6 +113,8 @@ def propagate(
     correlation : mapping of (str, str) to float, optional
         Correlation of the errors of pairs of these quantities [-]; 0 for those left out. From
         an `Identification`, that of toughness and wear strength is its `correlation`.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
 
     Returns
     -------
@@ -160,10 +164,10 @@ def propagate(
     9.350 +- 0.332 N/m
     """
     require_scene(scene)
-    chosen = one_model(model, rtol)
+    chosen = one_model(of_law(model, law), rtol)
     errors = _checked(std)
     rho = _correlation_matrix(list(errors), {} if correlation is None else correlation)
-    gradient = force_gradient(scene, chosen.name, extrapolate=extrapolate)
+    gradient = force_gradient(scene, chosen, extrapolate=extrapolate)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
         (np.zeros(scene.shape) if scene.shape else 0.0, *errors.values()),
@@ -171,7 +175,7 @@ def propagate(
     signed = {name: _times(getattr(gradient, name), error) for name, error in errors.items()}
     model_std = _model_std(chosen, scene)
     return UncertainForce(
-        force_of(scene, chosen.name, extrapolate=extrapolate).total,
+        force_of(scene, chosen, extrapolate=extrapolate).total,
         _combined(list(signed.values()), rho, model_std, scene.shape),
         {name: _number(np.abs(each)) for name, each in signed.items()},
         None if model_std is None else _number(model_std),

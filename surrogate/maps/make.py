@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import SMALLEST, Quantity, mapping, one_number, shown
 from surrogate.basics.records import ReadOnly, html_table, number
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import force_of
 from surrogate.cutting.regimes import DOMINANT_SHARE, THRESHOLD, regime_of, term_shares
 from surrogate.errors import ImplausibleInputWarning, InputError
@@ -123,9 +125,10 @@ def regime_map(
     y: str,
     ranges: Sequence[Sequence[float]],
     fixed: Mapping[str, float] | None = None,
-    model: str = "eq13",
+    model: str | ForceModel = "eq13",
     *,
     rtol: float = 0.02,
+    law: str = PROJECTED,
     scales: Sequence[str] = ("log", "log"),
     nodes: int = 201,
     threshold: float = DOMINANT_SHARE,
@@ -152,6 +155,8 @@ def regime_map(
         its asymptotes; `in_domain` says where.
     rtol : float, default 0.02
         Relative error of the force that will do with "auto" [-].
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
     scales : pair of str, default ("log", "log")
         "log" or "linear", of x and of y.
     nodes : int, default 201
@@ -223,6 +228,7 @@ def regime_map(
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = scene_of(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share, wanted = one_number(MISS, miss), limit_names(limits)
+    model = of_law(model, law)
     force = force_of(scene, model, rtol, extrapolate=True)
     regime = regime_of(scene, force, one_number(THRESHOLD, threshold), model)
     shares = term_shares(scene, force, model)

@@ -105,7 +105,7 @@ def map_summary(made: MapRecord) -> dict[str, Any]:
     regimes = np.unique(made.regime.dominant, return_counts=True)
     total = made.regime.dominant.size  # type: ignore[union-attr]
     return {
-        "model": made.model,
+        "model": str(made.model),
         "x": _axis_record(made.x),
         "y": _axis_record(made.y),
         "fixed": dict(made.fixed),
