@@ -97,6 +97,16 @@ def add_model_option(command: argparse.ArgumentParser) -> None:
     )
 
 
+def add_law_option(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--law",
+        choices=("projected", "slip"),
+        default="projected",
+        help="projected: the paper's Eq. (S2); slip: the balance of energy to first order in wear "
+        "and friction, whose force is larger (default projected)",
+    )
+
+
 def add_extrapolate_option(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--extrapolate",

@@ -14,10 +14,12 @@ from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.choosing.auto import rounded_up
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.choosing.catalogue import models
+from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.common import (
     Record,
     add_extrapolate_option,
     add_friction_and_stiffening,
+    add_law_option,
     add_model_option,
     print_answer,
     print_record,
@@ -60,6 +62,7 @@ def force_record(scene: Scene, force: CuttingForce, thickness: float | None = No
     )
     return {
         "model": force.model,
+        "law": force.law,
         "thickness": thickness,
         "wires": wires,
         "warnings": doubts_of_scene(scene.values()),
@@ -86,7 +89,8 @@ def force_text(record: Record, diameters: bool = False) -> str:
     words = "that of each wire" if is_auto(name) else force_model(name).equation
     parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
     header = (*_wire_header(diameters), *parts, "model", "error up to", "model holds")
-    return f"Model {name}, {words}\n" + table(header, rows)
+    law = "" if record["law"] == PROJECTED else f", law of {record['law']}"
+    return f"Model {name}, {words}{law}\n" + table(header, rows)
 
 
 def _wire_header(diameters: bool) -> tuple[str, str]:
@@ -204,6 +208,7 @@ def _add_scene_options(command: argparse.ArgumentParser) -> None:
 def add_force_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     add_model_option(command)
+    add_law_option(command)
     add_extrapolate_option(command)
     command.add_argument(
         "--thickness",
@@ -226,6 +231,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
         help="share of the force from which a term dominates (default 2/3)",
     )
     add_model_option(command)
+    add_law_option(command)
     add_extrapolate_option(command)
 
 
@@ -250,7 +256,7 @@ def run_force(options: argparse.Namespace) -> int:
     if options.thickness == 0.0:
         raise InputError("the sample's thickness must be positive; give --thickness 20mm or so.")
     scene = _scene(options)
-    force = cutting_force(scene, options.model, options.rtol, options.extrapolate)
+    force = cutting_force(scene, options.model, options.rtol, options.extrapolate, law=options.law)
     wide = _in_diameters(options)
     if options.plot:
         from surrogate.cutting.figure import save_force
@@ -262,6 +268,7 @@ def run_force(options: argparse.Namespace) -> int:
                 model=options.model,
                 rtol=options.rtol,
                 thickness=options.thickness,
+                law=options.law,
             )
     record = force_record(scene, force, options.thickness) | {"picture": options.plot}
     return print_answer(
@@ -275,8 +282,9 @@ def _with_picture(text: str, record: Record) -> str:
 
 def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
-    regime = classify(scene, options.threshold, options.model, options.rtol, options.extrapolate)
-    record = regime_record(scene, regime, options.model)
+    choice = options.model, options.rtol, options.extrapolate
+    regime = classify(scene, options.threshold, *choice, law=options.law)
+    record = regime_record(scene, regime, options.model) | {"law": options.law}
     wide = _in_diameters(options)
     return print_answer(options, record, lambda record: regime_text(record, wide))
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
-from surrogate.cli.common import share, whole_number
+from surrogate.cli.common import add_law_option, share, whole_number
 from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
@@ -144,6 +144,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add("--linear", nargs="+", choices="xy", default=[], help="axes with a linear scale")
     add("--fix", nargs="+", default=[], metavar="NAME=VALUE", help="what else is given")
     add("--model", default="eq13", help="force model, see 'wirecut models' (default eq13)")
+    add_law_option(command)
     for option, metavar, default, words in (
         ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
@@ -276,6 +277,7 @@ def run_map(options: argparse.Namespace) -> RegimeMap:
         fixed,
         options.model,
         rtol=options.rtol,
+        law=options.law,
         scales=tuple("linear" if axis in options.linear else "log" for axis in "xy"),
         nodes=options.nodes,
         threshold=options.threshold,

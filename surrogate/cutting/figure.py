@@ -29,6 +29,8 @@ from surrogate.basics.figures import (
     save_figure,
 )
 from surrogate.choosing.by_name import AUTO, is_auto
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.errors import InputError
 from surrogate.scene import Scene, require_scene
@@ -51,9 +53,10 @@ def plot_force(
     scene: Scene,
     ax: Axes | None = None,
     *,
-    model: str = AUTO,
+    model: str | ForceModel = AUTO,
     rtol: float = 0.02,
     thickness: float | None = None,
+    law: str = PROJECTED,
 ) -> Axes:
     """Draw the steady cutting force of a solid and its parts over the radius of the wire.
 
@@ -73,6 +76,8 @@ def plot_force(
         Relative error that will do with "auto" [-].
     thickness : float, optional
         Thickness of the sample [m]: the force is then that on all of it [N].
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
 
     Returns
     -------
@@ -103,7 +108,7 @@ def plot_force(
     >>> ax.get_ylabel()
     'cutting force $F_{ss}/T$ [N/m]'
     """
-    wires = _wires(scene)
+    wires, model = _wires(scene), of_law(model, law)
     size = 1.0 if thickness is None else one_number(THICKNESS, thickness)
     radius = np.linspace(0.0, 1.08 * _right_end(wires), _POINTS + 1)[1:]
     curve = force_of(replace(scene, wire_radius=radius), model, rtol, extrapolate=True)
@@ -201,7 +206,9 @@ def _draw_parts(ax: Axes, x: Array, size: float, force: CuttingForce) -> list[tu
     return labels
 
 
-def _draw_total(ax: Axes, x: Array, total: Array, force: CuttingForce, model: str) -> list[Any]:
+def _draw_total(
+    ax: Axes, x: Array, total: Array, force: CuttingForce, model: str | ForceModel
+) -> list[Any]:
     holds = np.broadcast_to(force.in_domain, x.shape)
     name = "cheapest model exact enough" if is_auto(model) else f"model {model}"
     inside, beyond = np.where(holds, total, np.nan), np.where(holds, np.nan, total)
