@@ -8,9 +8,9 @@ from dataclasses import asdict
 
 from surrogate.basics.checks import FloatOrArray
 from surrogate.basics.records import UNKNOWN, number, table
-from surrogate.choosing.auto import rounded_up
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.choosing.catalogue import models
+from surrogate.choosing.choice import rounded_up
 from surrogate.cli.common import (
     Record,
     add_extrapolate_option,

@@ -72,6 +72,10 @@ class Domain:
         first, last = self.alpha
         return (g >= low) & (g <= high) & (alpha >= first) & (alpha <= last)
 
+    def all_hold(self, g: Any, alpha: Any) -> Any:
+        """Return True where all points are inside, which is soon known, else what `holds` does."""
+        return (_between(g, self.g) and _between(alpha, self.alpha)) or self.holds(g, alpha)
+
     def surrounds(self, log_g: Any, log_alpha: Any) -> bool:
         """Return whether all points are inside."""
         if type(log_g) is float and type(log_alpha) is float:  # the same, and quicker
@@ -117,7 +121,7 @@ def _between(value: Any, ends: tuple[float, float]) -> bool:
         return low <= value <= high
     if not value.size:
         return True
-    return bool(np.minimum.reduce(value) >= low and np.maximum.reduce(value) <= high)
+    return bool(value.min() >= low and value.max() <= high)
 
 
 def _clamped(value: Any, low: float, high: float) -> Any:
