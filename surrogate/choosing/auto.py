@@ -76,16 +76,20 @@ class AutomaticTerms:
         rubbed, worn = FORCE_MODELS[FREE].terms(*scene)
         parts = 0.0 * gamma if self.of_dissipation else gamma, worn, rubbed
         holds = self.known.limits.all_hold(g, alpha)
+        cell = self.known.bounds.cell(g, alpha)
         if holds is not True:
             self.surrounded = False
+            cell = np.where(holds, cell, self.known.bounds.cells)
             holds = np.logical_or(holds, np.equal(rubbed, 0.0) & np.equal(worn, 0.0))
         one = type(g) is float and type(alpha) is float and type(rubbed) is type(worn) is float
-        friction, wear, number, bound = (self._number if one else self._block)(g, parts, scene)
+        choice = self._number if one else self._block
+        friction, wear, number, bound = choice(g, cell, parts, scene)
         return friction, wear, holds if holds is True or not one else bool(holds), number, bound
 
-    def _number(self, g: float, parts: tuple[float, ...], scene: tuple[float, ...]) -> Any:
+    def _number(
+        self, g: float, cell: int, parts: tuple[float, ...], scene: tuple[float, ...]
+    ) -> Any:
         mu, gamma, radius, xi, wear, alpha = scene
-        cell = self.known.bounds.cell(g, alpha)
         code, bound, arc, load = choose_number(self.known, cell, parts, self.rtol)
         _, worn, rubbed = parts
         if code < 0:
@@ -97,8 +101,7 @@ class AutomaticTerms:
             rubbed, worn = terms[0] if load else rubbed, terms[1] if arc else worn
         return rubbed, worn, max(code, 0), bound
 
-    def _block(self, g: Any, parts: tuple[Any, ...], scene: tuple[Any, ...]) -> Any:
-        cell = self.known.bounds.cell(g, scene[-1])
+    def _block(self, g: Any, cell: Any, parts: tuple[Any, ...], scene: tuple[Any, ...]) -> Any:
         chosen = chosen_terms(self.known, cell, parts, self.rtol)
         self.short = self.short or bool(np.any(chosen.short))
         _, worn, rubbed = parts

@@ -16,6 +16,7 @@ from surrogate.cli.common import (
     add_model_option,
     print_record,
     quantity,
+    share,
 )
 from surrogate.cli.identification_text import identification_record, identification_text
 from surrogate.cli.steady import add_record_options, cuts_by_options
@@ -112,7 +113,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         )
     add(
         "--relative-error",
-        type=percent,
+        type=share,
         metavar="SHARE",
         help="standard error of every force where only that is known: 5%%",
     )
@@ -133,7 +134,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_model_option(command)
     add(
         "--confidence",
-        type=quantity(NUMBER),
+        type=share,
         default=0.95,
         metavar="P",
         help="probability of the intervals (default 0.95)",
@@ -148,7 +149,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_record_options(command)
 
 
-_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "columns")
+_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "columns")
 
 
 def _outputs(options: argparse.Namespace) -> dict[str, str | None]:
@@ -268,22 +269,6 @@ def measured(dimension: Dimension) -> Callable[[str], tuple[float, float]]:
         ), parse(rest.strip())
 
     return parsed
-
-
-def percent(text: str) -> float:
-    """Return a share that may be written with a percent sign.
-
-    Examples
-    --------
-    >>> percent("5%"), percent("0.05")
-    (0.05, 0.05)
-    """
-    share = text.strip().removesuffix("%")
-    try:
-        value = float(share)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05") from None
-    return value / 100.0 if text.strip().endswith("%") else value
 
 
 def needs_modulus(model: str, friction: float | None) -> bool:

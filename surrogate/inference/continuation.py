@@ -96,7 +96,7 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
     """
     if not isinstance(model, FittedModel):
         return None
-    low, high = model.limits.g
+    low, high = model.ends(alpha)
     inside = np.minimum(np.maximum(g, low), high)
     near = contact_bounds(model, inside, alpha)
     if near is None:
@@ -120,7 +120,7 @@ def _dropped_slopes(
     model: FittedModel, alpha: float
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return d ln/d ln g of A and of B inside less that outside, at the low and the high end."""
-    step, (low, high) = 1e-6, model.limits.g
+    step, (low, high) = 1e-6, model.ends(alpha)
     g = np.array([low / (1.0 + step), low * (1.0 + step), high / (1.0 + step), high * (1.0 + step)])
     arc, load = (
         np.abs(np.diff((g * slopes[0] / value).reshape(2, 2))).ravel().tolist()
