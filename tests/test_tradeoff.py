@@ -9,8 +9,8 @@ import pytest
 
 import surrogate.choosing.catalogue
 from surrogate import InputError, models
-from surrogate.choosing.auto import available
 from surrogate.choosing.by_name import FITTED_NAMES, force_model
+from surrogate.choosing.candidates import available
 from surrogate.choosing.catalogue import COSTS_FILE, COSTS_SCHEMA, by_cost, read_costs
 from surrogate.contact.closed_forms import FORCE_MODELS
 

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.fitting.points import FitPoints
-from surrogate.choosing.auto import automatic_terms, choose_terms
+from surrogate.basics.elementwise import apply
+from surrogate.choosing.auto import AutomaticTerms
+from surrogate.choosing.choice import choose_terms
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES, log_touch
@@ -268,11 +270,15 @@ def _promised(
         return done, np.zeros(0), np.zeros(0, str)
     scene = one, points.g, one, friction, wear, points.alpha
     some = tuple(values[done] for values in scene)
-    rubbed, worn, _, names, _ = automatic_terms(
-        some, rtol, extrapolate=False, of_dissipation=bool(alone), fitted=fitted
-    )
+    automatic = AutomaticTerms(some, rtol, of_dissipation=bool(alone), fitted=fitted)
+    rubbed, worn, _, number, _ = apply(automatic, some, automatic.dtypes)
+    automatic.finish(extrapolate=False)
     true = cleavage + 2.0 * (wear * points.arc + friction * points.normal_load)
-    return done, np.abs((cleavage[done] + rubbed + worn) / true[done] - 1.0), names
+    return (
+        done,
+        np.abs((cleavage[done] + rubbed + worn) / true[done] - 1.0),
+        automatic.names(number),
+    )
 
 
 @dataclass(frozen=True, slots=True)

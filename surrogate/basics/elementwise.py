@@ -28,6 +28,8 @@ from surrogate.basics.checks import (
 )
 
 __all__ = [
+    "AT_ONCE",
+    "WHOLE",
     "Kernel",
     "all_normal",
     "apply",
@@ -50,6 +52,7 @@ Kernel: TypeAlias = Callable[..., Any]
 
 WHOLE = 2**20  # results up to this size are computed at once, in which numpy is quickest
 BLOCK = 2**16  # larger ones this many numbers at a time, to save memory
+AT_ONCE = 2**14  # points of long formulas at a time, whose temporaries stay in the cache
 NORMAL = sys.float_info.min  # smaller numbers have lost digits
 NO_POWER = -99999  # power of two of zero: less than any product of a few numbers has
 
@@ -76,18 +79,23 @@ def evaluate_checked(
     return apply(kernel, checked)  # type: ignore[no-any-return]
 
 
-def apply(kernel: Kernel, values: Sequence[FloatOrArray], dtypes: Sequence[type] = (float,)) -> Any:
+def apply(
+    kernel: Kernel,
+    values: Sequence[FloatOrArray],
+    dtypes: Sequence[Any] = (float,),
+    whole: int = WHOLE,
+) -> Any:
     """Return `kernel(*values)` for validated values that broadcast.
 
     The kernel returns a tuple of as many results as there are dtypes, or one by itself, and
     never one of its arguments. Floats reach it as they are, so that what depends on them alone
-    is computed once.
+    is computed once. More than `whole` points are walked in blocks.
     """
     if all(type(value) is float for value in values):
         return kernel(*values)
     shape = common_shape(values)
-    if math.prod(shape) > WHOLE:
-        results = _in_blocks(kernel, values, dtypes)
+    if math.prod(shape) > whole:
+        results = _in_blocks(kernel, values, dtypes, min(whole, BLOCK))
     else:
         with np.errstate(all="ignore"):
             at_once = kernel(*values)
@@ -99,7 +107,7 @@ def apply(kernel: Kernel, values: Sequence[FloatOrArray], dtypes: Sequence[type]
 
 
 def _in_blocks(
-    kernel: Kernel, values: Sequence[FloatOrArray], dtypes: Sequence[type]
+    kernel: Kernel, values: Sequence[FloatOrArray], dtypes: Sequence[Any], block: int
 ) -> tuple[NDArray[Any], ...]:
     arguments: list[Any] = list(values)
     places = [i for i, value in enumerate(values) if not isinstance(value, float)]
@@ -110,12 +118,12 @@ def _in_blocks(
         flags=["external_loop", "buffered"],
         op_flags=op_flags,
         op_dtypes=[np.float64] * len(places) + list(dtypes),
-        buffersize=BLOCK,
+        buffersize=block,
     )
     with iterator, np.errstate(all="ignore"):
         for blocks in iterator:
-            for place, block in zip(places, blocks, strict=False):
-                arguments[place] = block
+            for place, values_of in zip(places, blocks, strict=False):
+                arguments[place] = values_of
             results = kernel(*arguments)
             if len(dtypes) == 1:
                 results = (results,)

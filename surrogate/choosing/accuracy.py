@@ -48,7 +48,7 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
     """
     if not isinstance(model, FittedModel):
         return None
-    from surrogate.choosing.auto import available
+    from surrogate.choosing.candidates import available
 
     points = np.broadcast_arrays(g, alpha)
     bounds = available()[1]
@@ -129,7 +129,8 @@ def one_model(name: object, rtol: object) -> ForceModel:
     tolerance = one_number(RTOL, rtol)
     if not is_auto(name):
         return force_model(name)
-    from surrogate.choosing.auto import available, rounded_up
+    from surrogate.choosing.candidates import available
+    from surrogate.choosing.choice import rounded_up
 
     models, bounds = available()
     errors = [bounds.of_force(model.name) for model in models]

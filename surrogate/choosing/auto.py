@@ -1,240 +1,40 @@
-"""Choosing the cheapest model that is exact enough, before any of them is evaluated.
-
-For each term t of the force, 2 R_w tau_w A and 2 R_w xi mu B, Eq. (13) gives an estimate m_t for
-nothing, and the measured bound e_t of |ln(m_t/truth)| tells between which numbers the truth is. So
-the force is at least L = Gamma_o + sum m_t exp(-e_t), and a term errs by m_t (exp(e_t) - 1) at
-most. A term that errs by less than a quarter of rtol L is left at its estimate; the rest is
-evaluated by the first model, in rising order of cost, whose own bounds keep the sum below rtol L.
-"""
+"""Forces and contacts by the cheapest model that is exact enough at each point."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import FloatOrArray, common_shape
-from surrogate.basics.elementwise import product, quotient
+from surrogate.basics.elementwise import quotient
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.catalogue import by_cost
+from surrogate.choosing.candidates import FREE, TERMS, candidates
+from surrogate.choosing.choice import (
+    Chosen,
+    choose_contact,
+    choose_number,
+    choose_terms,
+    chosen_terms,
+)
 from surrogate.contact.base import ForceModel
-from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.contact.coordinates import QUANTITIES
 from surrogate.contact.domain import require_inside
-from surrogate.contact.shipped import Fitted, shipped
-from surrogate.errors import AccuracyError
+from surrogate.contact.shipped import Fitted
 
-__all__ = [
-    "Chosen",
-    "automatic_contact",
-    "automatic_terms",
-    "available",
-    "bounded",
-    "choose_contact",
-    "choose_terms",
-    "one_name",
-    "require_accuracy",
-    "rounded_up",
-    "scalar",
-]
+WORTH = 0.6  # share of points that need both terms from which both are evaluated at once
 
-Array = NDArray[np.float64]
-
-FREE = "eq13"
-NEGLIGIBLE = 0.25  # share of rtol up to which a term's own error is left alone
-OUTSIDE = "table"  # what continues beyond the domain, where no bound is known
-TERMS = ("arc", "normal_load")
+__all__ = ["AutomaticTerms", "automatic_contact", "one_name"]
 
 
-@dataclass(frozen=True, eq=False)
-class Chosen:
-    """What was chosen for a number of points.
-
-    Parameters
-    ----------
-    models : sequence of ForceModel
-        In rising order of cost.
-    code : ndarray of int
-        Which of them each point takes.
-    bound : ndarray
-        Bound of the relative error there [-]; nan outside the domain.
-    inside : ndarray of bool
-        Where g and alpha are in the domain.
-    needed : mapping of str to ndarray of bool
-        Where each function has to be evaluated.
-    """
-
-    models: Sequence[ForceModel]
-    code: NDArray[np.intp]
-    bound: Array
-    inside: NDArray[np.bool_]
-    needed: dict[str, NDArray[np.bool_]]
-
-    @property
-    def names(self) -> NDArray[np.str_]:
-        """Names of the models."""
-        return np.array([model.name for model in self.models])[self.code]
-
-
-def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
-    """Return the models with measured errors, cheapest at many points first, and the bounds.
-
-    The order is the same for one point, so that numbers and arrays agree.
-
-    Raises
-    ------
-    InputError
-        If no fitted models are shipped.
-    """
-    fitted = fitted or shipped()
-    return [FORCE_MODELS[FREE], *by_cost(fitted.models.values())], fitted.bounds
-
-
-def choose_terms(
-    g: Array,
-    alpha: Array,
-    parts: Sequence[Array],
-    rtol: float,
-    fitted: Fitted | None = None,
-    refuse: bool = True,
-) -> Chosen:
-    """Return models for the terms of forces.
-
-    Parameters
-    ----------
-    g, alpha : ndarray, shape (points,)
-        Where [-].
-    parts : sequence of ndarray
-        Gamma_o and the terms of wear and friction by Eq. (13) [N/m].
-    rtol : float
-        Relative error of their sum that will do [-].
-    fitted : Fitted, optional
-        The models to choose among; the shipped ones by default.
-    refuse : bool, default True
-        Whether to raise an error where no model is as exact, and not take the best one.
-
-    Raises
-    ------
-    AccuracyError
-        If no model is as exact; the message names the best one.
-    """
-    models, bounds = available(fitted)
-    cleavage, estimates = parts[0], dict(zip(TERMS, parts[1:], strict=True))
-    with np.errstate(all="ignore"):
-        free = {name: _bound(bounds, FREE, name, g, alpha, estimates[name]) for name in TERMS}
-        low = cleavage + sum(estimates[name] * np.exp(-free[name]) for name in TERMS)
-        worst = {name: _share(estimates[name] * np.expm1(free[name]), low) for name in TERMS}
-        together = worst[TERMS[0]] + worst[TERMS[1]]
-        needed = {name: (together > rtol) & (worst[name] > NEGLIGIBLE * rtol) for name in TERMS}
-        left = sum(np.where(needed[name], 0.0, worst[name]) for name in TERMS)
-        share = {n: _share(estimates[n] * np.exp(free[n]), low) for n in TERMS}
-        found = [together]
-        for model in models[1:]:
-            if _met(found, rtol):
-                break
-            errors = [
-                np.where(needed[n], _bound(bounds, model.name, n, g, alpha, estimates[n]), 0.0)
-                for n in TERMS
-            ]
-            arc, load = (
-                np.minimum(share[n], 1.0) * np.expm1(error)
-                for n, error in zip(TERMS, errors, strict=True)
-            )
-            # a weighted mean of errors is not above the largest of them
-            found.append(np.minimum(arc + load, np.expm1(np.maximum(*errors))) + left)
-    return _chosen(models, np.array(found), needed, rtol, g, alpha, refuse)
-
-
-def choose_contact(g: Array, alpha: Array, rtol: float) -> Chosen:
-    """Return models for A, B and delta at points, each of them within rtol."""
-    models, bounds = available()
-    found: list[Array] = []
-    for model in models:
-        if found and _met(found, rtol):
-            break
-        largest = np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0)
-        found.append(np.expm1(largest))
-    everywhere = dict.fromkeys(QUANTITIES, np.ones(len(g), bool))
-    return _chosen(models, np.array(found), everywhere, rtol, g, alpha)
-
-
-def bounded(model: ForceModel, g: Array, alpha: Array) -> Array:
-    """Return the bound of the relative errors of A, B and delta of one model at points."""
-    _, bounds = available()
-    largest = np.max([bounds.at(model.name, name, g, alpha) for name in QUANTITIES], axis=0)
-    return np.asarray(np.expm1(largest))
-
-
-def _bound(bounds: Bounds, model: str, name: str, g: Array, alpha: Array, term: Array) -> Array:
-    """Return the bound of a function, 0 where its term is."""
-    return np.asarray(np.where(term == 0.0, 0.0, bounds.at(model, name, g, alpha)))
-
-
-def _met(found: Sequence[Array], rtol: float) -> bool:
-    """Return whether some model is exact enough at every point, so that no other is asked."""
-    return bool(np.all(np.min(found, axis=0) <= rtol))
-
-
-def _share(term: Array, total: Array) -> Array:
-    return np.asarray(np.where(term == 0.0, 0.0, term / total))
-
-
-def _chosen(
-    models: list[ForceModel],
-    found: Array,
-    needed: dict[str, NDArray[np.bool_]],
-    rtol: float,
-    g: Array,
-    alpha: Array,
-    refuse: bool = True,
-) -> Chosen:
-    meets = found <= rtol
-    code = np.where(np.any(meets, axis=0), np.argmax(meets, axis=0), np.argmin(found, axis=0))
-    outside = ~np.any(np.isfinite(found), axis=0)
-    short = ~np.any(meets, axis=0) & ~outside
-    if refuse and np.any(short):
-        point = int(np.flatnonzero(short)[0])
-        best = int(np.argmin(found[:, point]))
-        error = found[best, point]
-        raise AccuracyError(
-            f"rtol must be met by a model, but rtol = {rtol:g} is not at g = {g[point]:.4g}, "
-            f"alpha = {alpha[point]:.4g} ({np.count_nonzero(short)} of {short.size} points), where "
-            f"the best is {models[best].name!r} with an error of up to {error:.2g}; "
-            f"give rtol={rounded_up(error)} or more."
-        )
-    names = [model.name for model in models]
-    code = np.where(outside, names.index(OUTSIDE), code)
-    bound = np.where(outside, np.nan, np.take_along_axis(found, code[np.newaxis], 0)[0])
-    return Chosen(models, code, bound, models[-1].holds(g, alpha), needed)
-
-
-def rounded_up(error: float) -> str:
-    """Return a number in two digits that is not below the error.
-
-    Examples
-    --------
-    >>> rounded_up(0.01234), rounded_up(0.02)
-    ('0.013', '0.02')
-    """
-    text = f"{error:.1e}"
-    return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"
-
-
-def automatic_terms(
-    values: tuple[FloatOrArray, ...],
-    rtol: float,
-    extrapolate: bool,
-    of_dissipation: bool = False,
-    fitted: Fitted | None = None,
-) -> Any:
-    """Return friction, wear, where in the domain, model and bound of each point.
+class AutomaticTerms:
+    """Friction, wear, where in the domain, number of the model and bound: a kernel for `apply`.
 
     What the scene lacks is not evaluated: B where xi is 0, A where tau_w is 0, neither where
-    Eq. (13) with its own bound is exact enough.
+    Eq. (13) with its own bound is exact enough. Outside the domain the table continues, and the
+    bound is nan. What is to be refused is kept in mind, and refused by `finish`.
 
     Parameters
     ----------
@@ -242,88 +42,166 @@ def automatic_terms(
         The six quantities of a scene.
     rtol : float
         Relative error of the force that will do [-].
-    extrapolate : bool
-        Whether points outside the domain are continued by the table; their bound is nan.
     of_dissipation : bool
         Whether `rtol` is relative to friction and wear alone, without the cleavage.
     fitted : Fitted, optional
         The models to choose among; the shipped ones by default.
 
-    Raises
-    ------
-    AccuracyError
-        If no model is as exact.
-    DomainError
-        If a point whose contact matters is outside the domain and `extrapolate` is not set.
+    Examples
+    --------
+    >>> scene = 685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.0
+    >>> friction, wear, inside, number, bound = AutomaticTerms(scene, 0.02)(*scene)
+    >>> print(f"{friction:.2f} {wear:.2f} {bound < 0.02}")
+    0.16 5.57 True
     """
-    shape = common_shape(values)
-    mu, gamma, radius, xi, wear, alpha = (
-        np.array(np.broadcast_to(v, shape), dtype=float).ravel() for v in values
-    )
-    with np.errstate(all="ignore"):
+
+    dtypes = (float, float, bool, np.uint8, float)
+
+    def __init__(
+        self,
+        values: tuple[FloatOrArray, ...],
+        rtol: float,
+        of_dissipation: bool = False,
+        fitted: Fitted | None = None,
+    ) -> None:
+        self.values, self.rtol, self.of_dissipation = values, rtol, of_dissipation
+        self.known = candidates(fitted)
+        self.surrounded, self.short = True, False
+
+    def __call__(
+        self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
+    ) -> tuple[Any, ...]:
+        scene = mu, gamma, radius, xi, wear, alpha
         g = quotient(gamma, mu, radius)
-        free = FORCE_MODELS["eq13"].terms(mu, gamma, radius, xi, wear, alpha)
-    friction, worn = (np.array(term, dtype=float) for term in np.broadcast_arrays(*free))
-    matters = (friction > 0.0) | (worn > 0.0)
-    models, _ = available(fitted)
-    if not extrapolate:
-        require_inside(models[1], values)
-    chosen = choose_terms(
-        g, alpha, (0.0 * gamma if of_dissipation else gamma, worn, friction), rtol, fitted
-    )
-    inside = chosen.inside | ~matters
-    for code, model in enumerate(chosen.models[1:], start=1):
-        here = chosen.code == code
-        for name, term, given in (("arc", worn, wear), ("normal_load", friction, xi)):
-            some = here & chosen.needed[name] & (given > 0.0)
-            if not np.any(some):
-                continue
-            if name == "arc":
-                value = model.arc(g[some], alpha[some])
-                term[some] = 2.0 * product(wear[some], radius[some], value)
-            else:
-                mass = mu[some], gamma[some], radius[some], xi[some]
-                term[some] = model.terms(*mass, 0.0, alpha[some])[0]
-    return (
-        *(scalar(np.reshape(v, shape)) for v in (friction, worn)),
-        scalar(np.reshape(inside, shape)),
-        scalar(np.reshape(chosen.names, shape)),
-        scalar(np.reshape(chosen.bound, shape)),
-    )
+        rubbed, worn = FORCE_MODELS[FREE].terms(*scene)
+        parts = 0.0 * gamma if self.of_dissipation else gamma, worn, rubbed
+        holds = self.known.limits.all_hold(g, alpha)
+        cell = self.known.bounds.cell(g, alpha)
+        if holds is not True:
+            self.surrounded = False
+            cell = np.where(holds, cell, self.known.bounds.cells)
+            holds = np.logical_or(holds, np.equal(rubbed, 0.0) & np.equal(worn, 0.0))
+        one = type(g) is float and type(alpha) is float and type(rubbed) is type(worn) is float
+        choice = self._number if one else self._block
+        friction, wear, number, bound = choice(g, cell, parts, scene)
+        return friction, wear, holds if holds is True or not one else bool(holds), number, bound
+
+    def _number(
+        self, g: float, cell: int, parts: tuple[float, ...], scene: tuple[float, ...]
+    ) -> Any:
+        mu, gamma, radius, xi, wear, alpha = scene
+        code, bound, arc, load = choose_number(self.known, cell, parts, self.rtol)
+        _, worn, rubbed = parts
+        if code < 0:
+            self.short = True
+        elif code > 0:
+            model: Any = self.known.models[code]
+            strengths = xi if load else 0.0, wear if arc else 0.0
+            terms = model.terms_at(g, mu, gamma, radius, *strengths, alpha)
+            rubbed, worn = terms[0] if load else rubbed, terms[1] if arc else worn
+        return rubbed, worn, max(code, 0), bound
+
+    def _block(self, g: Any, cell: Any, parts: tuple[Any, ...], scene: tuple[Any, ...]) -> Any:
+        chosen = chosen_terms(self.known, cell, parts, self.rtol)
+        self.short = self.short or bool(np.any(chosen.short))
+        _, worn, rubbed = parts
+        if type(chosen.code) is int and chosen.code == 0:
+            return rubbed, worn, 0, chosen.bound
+        return *_evaluated(chosen, g, (rubbed, worn), scene), chosen.code, chosen.bound
+
+    def finish(self, extrapolate: bool) -> None:
+        """Raise what is to be refused, after all points are done.
+
+        Raises
+        ------
+        DomainError
+            If a point whose contact matters is outside the domain and `extrapolate` is not set.
+        AccuracyError
+            If no model is as exact.
+        """
+        if not (self.surrounded or extrapolate):
+            require_inside(self.known.models[1], self.values)
+        if self.short:
+            self._refuse()
+
+    def _refuse(self) -> None:
+        arrays: Any = np.broadcast_arrays(*self.values)
+        mu, gamma, radius, xi, wear, alpha = (np.ravel(values) for values in arrays)
+        with np.errstate(all="ignore"):
+            g = quotient(gamma, mu, radius)
+            rubbed, worn = FORCE_MODELS[FREE].terms(mu, gamma, radius, xi, wear, alpha)
+            parts = 0.0 * gamma if self.of_dissipation else gamma, worn, rubbed
+            choose_terms(g, alpha, parts, self.rtol, self.known.fitted)
+
+    def names(self, number: Any) -> Any:
+        """Return the names of the models of these numbers."""
+        names = np.array(self.known.names)
+        if np.ndim(number) == 0:
+            return str(names[number])
+        if number.size and number.min() == number.max():
+            return np.broadcast_to(names[number.flat[0]], number.shape)
+        return names[number]
+
+
+def _evaluated(chosen: Chosen, g: Any, estimates: tuple[Any, Any], scene: tuple[Any, ...]) -> Any:
+    """Return friction and wear of points by their models, as estimated where that will do."""
+    needed = [chosen.needed.get(name, False) for name in reversed(TERMS)]
+    shape = common_shape(scene)
+    results = [np.broadcast_to(estimate, shape) for estimate in estimates]
+    for number, model in enumerate(chosen.models[1:], start=1):
+        here = [np.logical_and(chosen.code == number, mask) for mask in needed]
+        counts = [np.count_nonzero(np.broadcast_to(mask, shape)) for mask in here]
+        together = min(counts) > WORTH * max(counts)
+        groups: list[tuple[int, ...]] = [(0, 1)] if together else [(0,), (1,)]
+        for terms in groups:
+            if any(counts[i] for i in terms):
+                some = np.broadcast_to(np.logical_or(*here) if together else here[terms[0]], shape)
+                _put(results, model, terms, (some, here), (g, *scene))
+    return results
+
+
+def _put(
+    results: list[Any],
+    model: Any,
+    terms: tuple[int, ...],
+    masks: tuple[Any, list[Any]],
+    point: tuple[Any, ...],
+) -> None:
+    """Put terms of a model into the results, evaluated at some points, where they are needed."""
+    some, needed = masks
+    whole = bool(np.all(some))
+    at = [v if type(v) is float or whole else np.broadcast_to(v, some.shape)[some] for v in point]
+    for strength in {4, 5} - {4 + i for i in terms}:
+        at[strength] = 0.0
+    values = model.terms_at(*at)
+    for i in terms:
+        if whole:
+            results[i] = (
+                values[i] if np.all(needed[i]) else np.where(needed[i], values[i], results[i])
+            )
+        else:
+            evaluated = np.array(results[i])
+            inside = np.broadcast_to(needed[i], some.shape)[some]
+            evaluated[some] = np.where(inside, values[i], evaluated[some])
+            results[i] = evaluated
 
 
 def automatic_contact(
     evaluate: Callable[[ForceModel, tuple[Any, Any]], Any],
     values: tuple[FloatOrArray, FloatOrArray],
     rtol: float,
-) -> tuple[Chosen, tuple[int, ...], list[tuple[Any, Any]]]:
-    """Return the choice for g and alpha, their shape, and for each model used mask and result."""
+) -> tuple[NDArray[np.str_], tuple[int, ...], list[tuple[Any, Any]]]:
+    """Return the names for g and alpha, their shape, and for each model used mask and result."""
     shape = common_shape(values)
     g, alpha = (np.array(np.broadcast_to(v, shape), dtype=float).ravel() for v in values)
     chosen = choose_contact(g, alpha, rtol)
-    found = []
-    for code, model in enumerate(chosen.models):
-        here = chosen.code == code
+    code = np.broadcast_to(chosen.code, g.shape)
+    results = []
+    for number, model in enumerate(chosen.models):
+        here = code == number
         if np.any(here):
-            found.append((here, evaluate(model, (g[here], alpha[here]))))
-    return chosen, shape, found
-
-
-def require_accuracy(model: ForceModel, g: FloatOrArray, alpha: FloatOrArray, rtol: float) -> None:
-    """Raise an `AccuracyError` where a model's A, B or delta may be off by more than rtol."""
-    models, _ = available()
-    if model.name not in [each.name for each in models]:
-        raise AccuracyError(
-            f"rtol must be met by a model with measured errors, but {model.name!r} has none; "
-            f"choose one of {', '.join(each.name for each in models)}, or rtol=None."
-        )
-    points = np.broadcast_arrays(np.atleast_1d(g), np.atleast_1d(alpha))
-    error = float(np.max(bounded(model, points[0].ravel(), points[1].ravel()), initial=0.0))
-    if not error <= rtol:
-        raise AccuracyError(
-            f"rtol must be met by the model, but {model.name!r} may be off by {error:.2g} there, "
-            f"more than rtol = {rtol:g}; choose model='auto' or a larger rtol."
-        )
+            results.append((here, evaluate(model, (g[here], alpha[here]))))
+    return np.array([model.name for model in chosen.models])[code], shape, results
 
 
 def one_name(names: str | NDArray[np.str_]) -> str:
@@ -336,16 +214,7 @@ def one_name(names: str | NDArray[np.str_]) -> str:
     """
     if isinstance(names, str):
         return names
+    if names.size and not any(names.strides):  # a view of one name
+        return str(names.flat[0])
     different = set(names.ravel().tolist())
     return different.pop() if len(different) == 1 else AUTO
-
-
-def scalar(values: Any) -> Any:
-    """Return an array of no axes as the Python number or text that it holds.
-
-    Examples
-    --------
-    >>> scalar(np.array(2.5))
-    2.5
-    """
-    return values.item() if np.ndim(values) == 0 else values

@@ -11,9 +11,9 @@ import numpy as np
 from surrogate.basics.checks import FloatOrArray
 from surrogate.basics.figures import picture_form, pictures_as
 from surrogate.basics.records import UNKNOWN, number, table
-from surrogate.choosing.auto import rounded_up
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.choosing.catalogue import models
+from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.common import (
     Record,

@@ -138,6 +138,11 @@ class ForceModel(ABC):
             2.0 * (_times(wear * radius, arc_alpha) + _times(product(radius, xi, mu), load_alpha)),
         )
 
+    def evaluated(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        """Return friction, wear, and whether the model holds."""
+        friction, worn = self.terms(mu, gamma, radius, xi, wear, alpha)
+        return friction, worn, self.in_domain(mu, gamma, radius, xi, wear, alpha)
+
     @abstractmethod
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return whether the model holds."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -38,11 +39,30 @@ class Bounds:
     alpha: Sequence[float]
     errors: Mapping[str, Mapping[str, Array]]
 
+    @property
+    def cells(self) -> int:
+        """Number of cells, which is also the number of what is outside."""
+        return (len(self.g) - 1) * (len(self.alpha) - 1)
+
+    def cell(self, g: Any, alpha: Any) -> Any:
+        """Return the number of the cell of points, floats or arrays."""
+        row, inside = _place(self.g, g)
+        column, within = _place(self.alpha, alpha)
+        columns = len(self.alpha) - 1
+        if type(row) is int and type(column) is int:
+            return row * columns + column if inside and within else self.cells
+        cell = np.asarray(row, np.intp) * columns + column
+        if inside is not True or within is not True:
+            return np.where(np.logical_and(inside, within), cell, self.cells)
+        return cell
+
+    def by_cell(self, model: str, function: str) -> Array:
+        """Return the bounds by the number of the cell, the last one infinite."""
+        return np.append(self.errors[model][function].ravel(), np.inf)
+
     def at(self, model: str, function: str, g: Array, alpha: Array) -> Array:
         """Return the bound at points; infinite outside the domain."""
-        row, inside = _cell(self.g, g)
-        column, within = _cell(self.alpha, alpha)
-        return np.where(inside & within, self.errors[model][function][row, column], np.inf)
+        return np.asarray(self.by_cell(model, function)[self.cell(g, alpha)])
 
     def largest(self, model: str, functions: Sequence[str]) -> float:
         """Return the largest bound of functions over all cells."""
@@ -71,7 +91,17 @@ class Bounds:
         return cls(tuple(numbers["g"]), tuple(numbers["alpha"]), errors)
 
 
-def _cell(edges: Sequence[float], value: Array) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return the cell of values, and whether they are between the outer edges."""
-    inner = np.asarray(edges)[1:-1]
-    return np.searchsorted(inner, value, side="right"), (value >= edges[0]) & (value <= edges[-1])
+def _place(edges: Sequence[float], value: Any) -> tuple[Any, Any]:
+    """Return the interval of values, and whether they are between the outer edges.
+
+    The latter is True, no array, where all of them are.
+    """
+    first, *inner, last = edges
+    if type(value) is float:
+        return bisect_right(inner, value), first <= value <= last
+    place = np.zeros(value.shape, np.uint8)  # of few bytes, for speed
+    for edge in inner:
+        place += (value >= edge).view(np.uint8)
+    if not value.size or (value.min() >= first and value.max() <= last):
+        return place, True
+    return place, (value >= first) & (value <= last)

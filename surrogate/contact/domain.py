@@ -117,6 +117,21 @@ class Domain:
             inside = inside & (g <= self.highest_g(where(inside, alpha, first)) * _ROUNDING)
         return inside
 
+    @cached_property
+    def _of_all(self) -> tuple[float, float]:
+        """The ends in g that all alphas share."""
+        return self.g[0], min(g for _, g in (*self.highest, self.alpha[:1] + self.g[1:]))
+
+    def all_hold(self, g: Any, alpha: Any) -> Any:
+        """Return True where all points are inside, which is soon known, else what `holds` does."""
+        return (_between(g, self._of_all) and _between(alpha, self.alpha)) or self.holds(g, alpha)
+
+    def beyond(self, g: Any, alpha: Any) -> Any:
+        """Return False where no g is above the highest, which is soon known, else which are."""
+        if not (g > self._of_all[1] if type(g) is float else np.any(g > self._of_all[1])):
+            return False
+        return g > self.highest_g(alpha)
+
     def surrounds(self, log_g: Any, log_alpha: Any) -> bool:
         """Return whether all points are inside."""
         if type(log_g) is float and type(log_alpha) is float:  # the same, and quicker
@@ -173,7 +188,7 @@ def _between(value: Any, ends: tuple[float, float]) -> bool:
         return low <= value <= high
     if not value.size:
         return True
-    return bool(np.minimum.reduce(value) >= low and np.maximum.reduce(value) <= high)
+    return bool(value.min() >= low and value.max() <= high)
 
 
 def _clamped(value: Any, low: float, high: float) -> Any:

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from surrogate.basics.checks import STIFFENING_EXPONENT, Quantity
-from surrogate.basics.elementwise import exp, log, product, quotient, where
+from surrogate.basics.elementwise import AT_ONCE, exp, log, product, quotient, where
 from surrogate.contact.base import ForceModel
 from surrogate.contact.coordinates import (
     QUANTITIES,
@@ -119,7 +119,6 @@ PROJECTED, SLIP = "projected", "slip"
 TERMS_OF_LAW = {PROJECTED: QUANTITIES[:2], SLIP: SLIP_QUANTITIES}
 """Names of the functions that wear and friction follow under each law."""
 
-BLOCK = 2**14  # points at a time, whose temporaries stay in the cache
 _ARC, _LOAD, _DISTANCE = QUANTITIES
 
 
@@ -207,6 +206,13 @@ class FittedModel(ForceModel):
         log_g, log_alpha = log(g), log(alpha)
         if self.limits.surrounds(log_g, log_alpha):
             return self.inside(names, log_g, log_alpha, g)
+        with np.errstate(all="ignore"):
+            return self._outside(names, log_g, log_alpha, g)
+
+    def _outside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
+        """Return the functions where some points are outside the domain; nan where g is 0/0."""
+        if type(log_g) is float and log_g != log_g:
+            return [log_g] * len(names)
         at, row = self.limits.clamped(log_g, log_alpha)
         values = self.inside(names, at, row, g)
         low, high = self.limits.log_g[0], self.limits.log_highest(row)
@@ -278,28 +284,49 @@ class FittedModel(ForceModel):
 
     def terms(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         g = quotient(gamma, mu, radius)
+        return self.terms_at(g, mu, gamma, radius, xi, wear, alpha)
+
+    def evaluated(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
+        g = quotient(gamma, mu, radius)
+        terms = self.terms_at(g, mu, gamma, radius, xi, wear, alpha)
+        return *terms, self.limits.all_hold(g, alpha)
+
+    def terms_at(
+        self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
+    ) -> tuple[Any, Any]:
+        """Return friction and wear at a known g; what has no strength is not evaluated."""
+        names = self.rubbing[:1] * _some(wear) + self.rubbing[1:] * _some(xi)
+        if not names:
+            return 0.0, 0.0
+        beyond = self.limits.beyond(g, alpha)
+        values = dict(zip(names, self.contact(names, g, alpha))) if beyond is False else {}  # noqa: B905
         friction = worn = 0.0
-        if np.any(wear):
-            arc = where(wear == 0.0, 0.0, self.arc(g, alpha))
-            worn = 2.0 * product(wear, radius, arc)
-        if np.any(xi):
-            friction = where(xi == 0.0, 0.0, self._friction(g, mu, gamma, radius, xi, alpha))
+        if self.rubbing[1] in names:
+            load = values.get(self.rubbing[1])
+            if load is None:
+                load = self.normal_load(where(beyond, self.limits.highest_g(alpha), g), alpha)
+            friction = 2.0 * product(radius, xi, mu) * load
+            if beyond is not False:
+                far = self._friction_beyond(load, mu, gamma, radius, xi, alpha)
+                friction = where(beyond, far, friction)
+            friction = _where_not_zero(xi, friction)
+        if self.rubbing[0] in names:
+            arc = values.get(self.rubbing[0])
+            arc = self.arc(g, alpha) if arc is None else arc
+            worn = 2.0 * product(wear, radius, _where_not_zero(wear, arc))
         return friction, worn
 
-    def _friction(self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> Any:
-        """Return 2 R_w xi mu B, which where g is high is 2 xi Gamma_o B/g; B* under "slip"."""
+    def _friction_beyond(
+        self, load: Any, mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any
+    ) -> Any:
+        """Return 2 R_w xi mu B where g is high, which is 2 xi Gamma_o B/g; B* under "slip"."""
         high = self.limits.highest_g(alpha)
-        beyond = g > high
-        load = self.normal_load(where(beyond, high, g), alpha)
-        friction = 2.0 * product(radius, xi, mu) * load
-        if not _any(beyond):
-            return friction
         log_alpha = self.limits.clamped(0.0, log(alpha))[1]
         excess = log_touch(self.limits.growth[self.rubbing[1]], log_alpha) - 1.0
-        log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
         with np.errstate(all="ignore"):
+            log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
             power = exp(excess * (log_g - self.limits.log_highest(log_alpha)))
-            return where(beyond, 2.0 * product(xi, gamma, power * (load / high)), friction)
+            return 2.0 * product(xi, gamma, power * (load / high))
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         return self.limits.holds(quotient(gamma, mu, radius), alpha)
@@ -313,6 +340,16 @@ def _any(condition: Any) -> bool:
     return condition if type(condition) is bool else bool(np.any(condition))
 
 
+def _some(strength: Any) -> bool:
+    """Return whether any strength is not 0."""
+    return strength != 0.0 if type(strength) is float else bool(np.any(strength))
+
+
+def _where_not_zero(strength: Any, value: Any) -> Any:
+    """Return the value, 0 where the strength is."""
+    return value if type(strength) is float else np.where(strength == 0.0, 0.0, value)
+
+
 def in_blocks(function: Callable[..., Sequence[Any]], number: int, g: Any, alpha: Any) -> list[Any]:
     """Return a number of functions at points, so many at a time that they stay in the cache."""
     shape = np.broadcast_shapes(np.shape(g), np.shape(alpha))
@@ -321,8 +358,8 @@ def in_blocks(function: Callable[..., Sequence[Any]], number: int, g: Any, alpha
     row: Any = float(alpha) if one_alpha else _flat(alpha, shape)
     results = [np.empty(flat.size) for _ in range(number)]
     with np.errstate(all="ignore"):
-        for start in range(0, flat.size, BLOCK):
-            some = slice(start, start + BLOCK)
+        for start in range(0, flat.size, AT_ONCE):
+            some = slice(start, start + AT_ONCE)
             values = function(flat[some], row if one_alpha else row[some])
             for result, value in zip(results, values, strict=True):
                 result[some] = value

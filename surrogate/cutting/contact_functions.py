@@ -23,7 +23,7 @@ from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_below_highest
 from surrogate.errors import DomainError
 
-__all__ = ["ContactFunctions", "contact_functions", "energy_release_rate"]
+__all__ = ["ContactFunctions", "contact_functions", "energy_release_rate", "scalar"]
 
 DEFAULT_RTOL = 0.02
 _FLOATS = (
@@ -170,7 +170,7 @@ def contact_functions(
     chosen = force_model(model)
     values = _points(chosen, g, alpha, extrapolate)
     if tolerance is not None:
-        from surrogate.choosing.auto import require_accuracy
+        from surrogate.choosing.choice import require_accuracy
 
         require_accuracy(chosen, *values, tolerance)
     return _evaluated(chosen, values)
@@ -178,23 +178,39 @@ def contact_functions(
 
 def _automatic(values: tuple[Any, Any], rtol: float) -> ContactFunctions:
     """Return each point by the cheapest model that is exact enough."""
-    from surrogate.choosing.auto import automatic_contact, one_name, scalar
+    from surrogate.choosing.auto import automatic_contact, one_name
 
-    chosen, shape, found = automatic_contact(_evaluated, values, rtol)
+    names, shape, found = automatic_contact(_evaluated, values, rtol)
 
     def together(name: str) -> Any:
         parts = [(here, getattr(each, name)) for here, each in found]
         if all(part is None for _, part in parts):
             return None
-        whole = np.full(chosen.code.size, np.nan)
+        whole = np.full(names.size, np.nan)
         for here, part in parts:
             whole[here] = np.nan if part is None else part
         return scalar(np.reshape(whole, shape))
 
     columns = {name: together(name) for name in _FLOATS}
-    inside = scalar(np.reshape(chosen.inside, shape))
-    names = scalar(np.reshape(chosen.names, shape))
-    return ContactFunctions(**columns, in_domain=inside, model=one_name(names), chosen=names)
+    inside = np.zeros(names.size, bool)
+    for here, each in found:
+        inside[here] = each.in_domain
+    by_point = scalar(np.reshape(names, shape))
+    model = one_name(by_point)
+    return ContactFunctions(
+        **columns, in_domain=scalar(np.reshape(inside, shape)), model=model, chosen=by_point
+    )
+
+
+def scalar(values: Any) -> Any:
+    """Return an array of no axes as the Python number or text that it holds.
+
+    Examples
+    --------
+    >>> scalar(np.array(2.5))
+    2.5
+    """
+    return values.item() if np.ndim(values) == 0 else values
 
 
 def _points(chosen: ForceModel, g: object, alpha: object, extrapolate: bool) -> tuple[Any, Any]:

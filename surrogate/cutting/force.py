@@ -18,7 +18,7 @@ from surrogate.basics.checks import (
     flag,
     one_number,
 )
-from surrogate.basics.elementwise import apply, evaluate_checked, quotient
+from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply, evaluate_checked, quotient
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.laws import PROJECTED, force_bound, of_law
@@ -188,24 +188,24 @@ def force_of(
         return _automatic(scene, rtol, extrapolate)
     chosen = force_model(model)
     require_scene(scene)
+    values = scene.values()
     fitted = isinstance(chosen, FittedModel)
     if not fitted:
         chosen.stiffening.checked(scene.stiffening_exponent)
-    elif not extrapolate:
-        require_inside(chosen, scene.values())
 
     def parts(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any, alpha: Any) -> tuple[Any, ...]:
         cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
-        friction, wear = chosen.terms(mu, gamma, radius, xi, tau, alpha)
-        holds = chosen.in_domain(mu, gamma, radius, xi, tau, alpha)
+        friction, wear, holds = chosen.evaluated(mu, gamma, radius, xi, tau, alpha)
         return cleavage + friction + wear, cleavage, friction, wear, holds
 
     total, cleavage, friction, wear, holds = apply(
-        parts, scene.values(), (float, float, float, float, bool)
+        parts, values, (float, float, float, float, bool), AT_ONCE if fitted else WHOLE
     )
+    if fitted and not extrapolate and not (holds is True or np.all(holds)):
+        require_inside(chosen, values)
     bound = None
     if isinstance(chosen, FittedModel) and chosen.law != PROJECTED:
-        mu, gamma, radius, *_, alpha = scene.values()
+        mu, gamma, radius, *_, alpha = values
         with np.errstate(all="ignore"):
             g = quotient(gamma, mu, radius)
         bound = force_bound(chosen, g, alpha, (cleavage, friction, wear))
@@ -215,12 +215,20 @@ def force_of(
 
 
 def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
-    from surrogate.choosing.auto import automatic_terms, one_name
+    from surrogate.choosing.auto import AutomaticTerms, one_name
 
-    friction, wear, holds, names, bound = automatic_terms(scene.values(), rtol, extrapolate)
-    cleavage = np.add(np.broadcast_to(scene.toughness, scene.shape), 0.0)
-    cleavage = cleavage if scene.shape else float(cleavage)
-    total = cleavage + friction + wear
+    values = scene.values()
+    automatic = AutomaticTerms(values, rtol)
+
+    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
+        cleavage = gamma + 0.0
+        friction, wear, *rest = automatic(mu, gamma, *others)
+        return cleavage + friction + wear, cleavage, friction, wear, *rest
+
+    dtypes = float, float, *automatic.dtypes
+    total, cleavage, friction, wear, holds, number, bound = apply(parts, values, dtypes, AT_ONCE)
+    automatic.finish(extrapolate)
+    names = automatic.names(number)
     return CuttingForce(total, cleavage, friction, wear, one_name(names), bound, holds, names)
 
 
@@ -310,13 +318,15 @@ def dissipative_force(
 def _automatic_dissipation(
     quantities: tuple[Quantity, ...], values: tuple[Any, ...], rtol: float, extrapolate: bool
 ) -> FloatOrArray:
-    from surrogate.choosing.auto import automatic_terms
+    from surrogate.choosing.auto import AutomaticTerms
 
     checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
     broadcast_shape(tuple(q.name for q in quantities), checked)
     g, alpha, xi, relative_wear = checked
     scene = (1.0, g, 1.0, xi, relative_wear, alpha)
-    friction, wear, *_ = automatic_terms(scene, rtol, extrapolate, of_dissipation=True)
+    automatic = AutomaticTerms(scene, rtol, of_dissipation=True)
+    friction, wear, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
+    automatic.finish(extrapolate)
     return friction + wear  # type: ignore[no-any-return]
 
 

@@ -48,7 +48,7 @@ def test_numbers_and_arrays_agree_to_the_last_bit(model):
 @every_model
 def test_blocks_change_no_bit(model, monkeypatch):
     at_once = values(contact_functions(G, ALPHA, model=model))
-    monkeypatch.setattr("surrogate.contact.fitted.BLOCK", 3)
+    monkeypatch.setattr("surrogate.contact.fitted.AT_ONCE", 3)
     np.testing.assert_array_equal(values(contact_functions(G, ALPHA, model=model)), at_once)
 
 
@@ -319,3 +319,12 @@ def test_unknown_models_are_listed():
 def test_every_model_is_described():
     for model in surrogate.models():
         assert model.name
+
+
+@every_model
+def test_a_toughness_that_is_0_over_0_has_no_contact_for_numbers_as_for_arrays(model):
+    for radius in (1.0, [1.0]):
+        scene = Scene(0.0, 0.0, radius, 0.1, 1.0, 3.0)
+        force = cutting_force(scene, model, extrapolate=True)
+        assert np.all(np.isnan(force.wear))
+        assert np.all(np.isnan(force.total))

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from surrogate.choosing.auto import available
+from surrogate.choosing.candidates import available
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES
 from surrogate.contact.shipped import shipped

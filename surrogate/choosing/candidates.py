@@ -1,0 +1,110 @@
+"""The models among which "auto" chooses, with what it needs of their bounds in each cell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.basics.files import models_folder
+from surrogate.choosing.catalogue import by_cost
+from surrogate.contact.base import ForceModel
+from surrogate.contact.bounds import Bounds
+from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.shipped import Fitted, shipped
+
+__all__ = ["FREE", "OUTSIDE", "TERMS", "Candidates", "available", "candidates"]
+
+Array = NDArray[np.float64]
+
+FREE = "eq13"
+OUTSIDE = "table"  # what continues beyond the domain, where no bound is known
+TERMS = ("arc", "normal_load")
+
+
+class Candidates:
+    """Models in rising order of their cost, and functions of the bounds e of |ln(model/truth)|.
+
+    Parameters
+    ----------
+    fitted : Fitted
+        The fitted models.
+
+    Examples
+    --------
+    >>> Candidates(shipped()).names[0]
+    'eq13'
+    """
+
+    def __init__(self, fitted: Fitted) -> None:
+        self.fitted, self.limits, self.bounds = fitted, fitted.limits, fitted.bounds
+        self.models: list[ForceModel] = [FORCE_MODELS[FREE], *by_cost(fitted.models.values())]
+        self.names = [model.name for model in self.models]
+        self.outside = self.names.index(OUTSIDE)
+        self._tables: dict[tuple[Any, str, str], Array] = {}
+
+    def error(self, model: str, name: str) -> Array:
+        """Return exp(e) - 1 of a function by a model, by the number of the cell."""
+        return self._kept(np.expm1, model, name)
+
+    def least(self, name: str) -> Array:
+        """Return exp(-e) of a function by Eq. (13), by the number of the cell."""
+        return self._kept(_reciprocal, FREE, name)
+
+    def most(self, name: str) -> Array:
+        """Return exp(e) of a function by Eq. (13), by the number of the cell."""
+        return self._kept(np.exp, FREE, name)
+
+    def _kept(self, function: Callable[[Any], Any], model: str, name: str) -> Array:
+        key = function, model, name
+        if key not in self._tables:
+            self._tables[key] = np.asarray(function(self.bounds.by_cell(model, name)))
+        return self._tables[key]
+
+    @cached_property
+    def of_terms(self) -> dict[str, list[tuple[float, ...]]]:
+        """For single points, by term and cell: `least`, `most` and every model's `error`."""
+        rows = {}
+        for name in TERMS:
+            errors = (self.error(model, name) for model in self.names)
+            columns = self.least(name), self.most(name), *errors
+            rows[name] = list(zip(*(column.tolist() for column in columns), strict=True))
+        return rows
+
+
+def _reciprocal(bound: Any) -> Any:
+    return np.exp(-bound)
+
+
+def candidates(fitted: Fitted | None = None) -> Candidates:
+    """Return the models with measured errors; the shipped ones by default.
+
+    Raises
+    ------
+    InputError
+        If no fitted models are shipped.
+    """
+    return _candidates(fitted or shipped(), models_folder())
+
+
+@cache
+def _candidates(fitted: Fitted, folder_of_costs: Path) -> Candidates:
+    return Candidates(fitted)
+
+
+def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:
+    """Return the models with measured errors, cheapest at many points first, and the bounds.
+
+    The order is the same for one point, so that numbers and arrays agree.
+
+    Raises
+    ------
+    InputError
+        If no fitted models are shipped.
+    """
+    known = candidates(fitted)
+    return known.models, known.bounds
