@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         contact_functions,
         energy_release_rate,
     )
+    from surrogate.cutting.figure import plot_force
     from surrogate.cutting.force import CuttingForce, cutting_force, dissipative_force
     from surrogate.cutting.gradient import ForceGradient, force_gradient
     from surrogate.cutting.regimes import Regime, classify
@@ -103,6 +104,7 @@ __all__ = [
     "low_toughness_dissipation",
     "low_toughness_force",
     "models",
+    "plot_force",
     "plot_identification",
     "plot_regime_map",
     "power_law_dissipation",
@@ -124,6 +126,7 @@ _MODULES = {
     "choosing.catalogue": "ModelInfo load_models models",
     "contact.closed_forms": "FORCE_MODELS",
     "cutting.contact_functions": "ContactFunctions contact_functions energy_release_rate",
+    "cutting.figure": "plot_force",
     "cutting.force": "CuttingForce cutting_force dissipative_force",
     "cutting.gradient": "ForceGradient force_gradient",
     "cutting.regimes": "Regime classify",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
 from functools import wraps
 from io import BytesIO
 from os import PathLike
@@ -22,18 +24,23 @@ if TYPE_CHECKING:
 __all__ = [
     "BLUE",
     "ENDINGS",
+    "FILLS",
     "GREY",
     "MEDIUM",
     "RED",
     "SINGLE_COLUMN",
     "SMALL",
     "WIDTHS",
+    "PictureForm",
     "figure_width",
     "in_style",
+    "label_at_right",
     "legend_above",
     "new_axes",
     "new_figure",
     "picture_file",
+    "picture_form",
+    "pictures_as",
     "require_axes",
     "require_matplotlib",
     "save_figure",
@@ -53,7 +60,17 @@ WIDTHS = {"single": 3.4, "double": 7.0}
 SMALL, MEDIUM = 7.0, 8.0
 BLUE, RED, GREY = "#1f5fa8", "#c0392b", "#555555"
 
-ENDINGS = (".png", ".pdf", ".svg")
+FILLS = {
+    "transition": "#ffffff",
+    "toughness-and-friction": "#cfe4f2",
+    "cleavage": "#cfe4f2",
+    "wear": "#efb37c",
+    "friction-stiffness": "#6f9fc0",
+    "friction": "#6f9fc0",
+}
+"""Fill of each term of the force: told apart by the colour-blind, and by lightness in grey."""
+
+ENDINGS = (".png", ".pdf", ".svg", ".tif", ".tiff")
 
 # Text that journals can edit, and nothing that changes from run to run.
 _STYLE: Any = {
@@ -66,7 +83,56 @@ _METADATA: dict[str, dict[str, Any]] = {
     ".pdf": {"CreationDate": None, "ModDate": None},
     ".svg": {"Date": None},
     ".png": {},
+    ".tif": {},
+    ".tiff": {},
 }
+
+
+@dataclass(frozen=True)
+class PictureForm:
+    """How pictures are wanted that are written to files.
+
+    Parameters
+    ----------
+    width : float or None
+        Width [inch] in place of each figure's own.
+    dpi : int
+        Points an inch of pictures made of points (.png, .tif).
+    legend : bool
+        Whether to draw legends.
+    diameters : bool
+        Whether to show diameters of wires in place of radii.
+    """
+
+    width: float | None = None
+    dpi: int = 300
+    legend: bool = True
+    diameters: bool = False
+
+
+_FORM: ContextVar[PictureForm] = ContextVar("picture_form", default=PictureForm())  # noqa: B039
+
+
+def picture_form() -> PictureForm:
+    """Return how pictures are wanted here."""
+    return _FORM.get()
+
+
+@contextmanager
+def pictures_as(form: PictureForm) -> Iterator[None]:
+    """Have pictures written as somebody wants them.
+
+    Examples
+    --------
+    >>> with pictures_as(PictureForm(legend=False)):
+    ...     picture_form().legend
+    False
+    """
+    token = _FORM.set(form)
+    try:
+        yield
+    finally:
+        _FORM.reset(token)
 
 
 def require_matplotlib() -> None:
@@ -105,6 +171,9 @@ def new_figure(size: tuple[float, float]) -> Figure:
     require_matplotlib()
     from matplotlib.figure import Figure
 
+    width = picture_form().width
+    if width is not None:  # a wider one need not be as much higher
+        size = width, size[1] * (width / size[0]) ** 0.5
     return Figure(figsize=size, layout="constrained")
 
 
@@ -212,8 +281,11 @@ def write_svg(figure: Figure, stream: Any) -> None:
 def _write(figure: Figure, file: Any, ending: str) -> None:
     from matplotlib import rc_context
 
+    options: dict[str, Any] = {"metadata": _METADATA[ending]}
+    if ending in (".tif", ".tiff"):
+        options = {"pil_kwargs": {"compression": "tiff_lzw"}}
     with rc_context(_STYLE):
-        figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
+        figure.savefig(file, format=ending[1:], dpi=picture_form().dpi, **options)
 
 
 LARGEST_SHOWN = 1e100
@@ -226,7 +298,7 @@ def legend_above(
     """Put the legend above the axes, where no data can be, from a fraction of their width on."""
     if handles is None:
         handles = ax.get_legend_handles_labels()[0]
-    if not handles:
+    if not handles or not picture_form().legend:
         return
     ax.legend(
         handles=handles,
@@ -239,3 +311,24 @@ def legend_above(
         columnspacing=1.0,
         borderaxespad=0.2,
     )
+
+
+def label_at_right(ax: Axes, labels: Sequence[tuple[float, str]]) -> None:
+    """Write words outside the right edge, at heights in data and a line's height apart."""
+    low, high = ax.get_ylim()
+    height = float(ax.figure.canvas.figure.get_size_inches()[1]) * 72.0 * 0.75  # of the axes
+    room = 1.15 * SMALL * (high - low) / height
+    least = low
+    for at, words in sorted(labels):
+        at = max(at, least)
+        least = at + room
+        ax.annotate(
+            words,
+            (1.0, at),
+            xycoords=("axes fraction", "data"),
+            xytext=(3.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize=SMALL,
+            annotation_clip=False,
+        )

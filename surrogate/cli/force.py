@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
+
+import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
+from surrogate.basics.figures import picture_form, pictures_as
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.choosing.auto import rounded_up
 from surrogate.choosing.by_name import force_model, is_auto
@@ -24,7 +27,7 @@ from surrogate.cli.common import (
 )
 from surrogate.cutting.force import CuttingForce, cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, SPLIT_MODEL, Regime, classify
-from surrogate.errors import DomainError
+from surrogate.errors import DomainError, InputError
 from surrogate.reading.plausibility import doubts_of_scene
 from surrogate.reading.units import LENGTH, STRESS, TOUGHNESS
 from surrogate.scene import Scene
@@ -39,12 +42,15 @@ __all__ = [
 ]
 
 
-def force_record(scene: Scene, force: CuttingForce) -> Record:
-    """Return the force on each wire [N/m] and its parts."""
+def force_record(scene: Scene, force: CuttingForce, thickness: float | None = None) -> Record:
+    """Return the force on each wire [N/m] and its parts, and on all of a sample's thickness [N]."""
+    size = math.nan if thickness is None else thickness
     wires = wire_rows(
         wire_radius=scene.wire_radius,
+        wire_diameter=2.0 * np.asarray(scene.wire_radius),
         dimensionless_toughness=_dimensionless_toughness(scene),
         total=force.total,
+        force=np.asarray(force.total) * size,
         cleavage=force.cleavage,
         friction=force.friction,
         wear=force.wear,
@@ -52,19 +58,24 @@ def force_record(scene: Scene, force: CuttingForce) -> Record:
         relative_error=math.nan if force.relative_error is None else force.relative_error,
         in_domain=force.in_domain,
     )
-    return {"model": force.model, "wires": wires, "warnings": doubts_of_scene(scene.values())}
+    return {
+        "model": force.model,
+        "thickness": thickness,
+        "wires": wires,
+        "warnings": doubts_of_scene(scene.values()),
+    }
 
 
-def force_text(record: Record) -> str:
+def force_text(record: Record, diameters: bool = False) -> str:
     """Return a table of `force_record`."""
-    parts = ("R_w [mm]", "g [-]", "F_ss/T [N/m]", "cleavage", "friction", "wear")
+    thickness = record["thickness"]
+    on_all = [] if thickness is None else [f"F_ss [N] on {number(1e3 * thickness)} mm"]
     rows = [
         (
-            number(1e3 * wire["wire_radius"]),
-            *(
-                number(wire[key])
-                for key in ("dimensionless_toughness", "total", "cleavage", "friction", "wear")
-            ),
+            *_wire_cells(wire, diameters),
+            number(wire["total"]),
+            *([] if thickness is None else [number(wire["force"])]),
+            *(number(wire[key]) for key in ("cleavage", "friction", "wear")),
             wire["model"],
             _percent(wire["relative_error"]),
             "yes" if wire["in_domain"] else "no",
@@ -73,8 +84,18 @@ def force_text(record: Record) -> str:
     ]
     name = record["model"]
     words = "that of each wire" if is_auto(name) else force_model(name).equation
-    header = (*parts, "model", "error up to", "model holds")
+    parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
+    header = (*_wire_header(diameters), *parts, "model", "error up to", "model holds")
     return f"Model {name}, {words}\n" + table(header, rows)
+
+
+def _wire_header(diameters: bool) -> tuple[str, str]:
+    return "2 R_w [mm]" if diameters else "R_w [mm]", "g [-]"
+
+
+def _wire_cells(wire: Record, diameters: bool) -> tuple[str, str]:
+    size = wire["wire_diameter"] if diameters else wire["wire_radius"]
+    return number(1e3 * size), number(wire["dimensionless_toughness"])
 
 
 def _percent(error: float | None) -> str:
@@ -86,6 +107,7 @@ def regime_record(scene: Scene, regime: Regime, model: str) -> Record:
     """Return the regime of each wire."""
     wires = wire_rows(
         wire_radius=scene.wire_radius,
+        wire_diameter=2.0 * np.asarray(scene.wire_radius),
         dimensionless_toughness=_dimensionless_toughness(scene),
         dominant=regime.dominant,
         contact=regime.contact,
@@ -102,13 +124,12 @@ def _dimensionless_toughness(scene: Scene) -> FloatOrArray:
         return math.nan
 
 
-def regime_text(record: Record) -> str:
+def regime_text(record: Record, diameters: bool = False) -> str:
     """Return a table of `regime_record`."""
-    header = ("R_w [mm]", "g [-]", "dominant term", "contact")
+    header = (*_wire_header(diameters), "dominant term", "contact")
     rows = [
         (
-            number(1e3 * wire["wire_radius"]),
-            number(wire["dimensionless_toughness"]),
+            *_wire_cells(wire, diameters),
             wire["dominant"],
             wire["contact"],
         )
@@ -184,6 +205,15 @@ def add_force_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     add_model_option(command)
     add_extrapolate_option(command)
+    command.add_argument(
+        "--thickness",
+        type=quantity(LENGTH),
+        metavar="T",
+        help="thickness of the sample, for the force on all of it in N",
+    )
+    command.add_argument(
+        "--plot", metavar="PICTURE", help="draw the force and its parts over the radius"
+    )
 
 
 def add_regime_options(command: argparse.ArgumentParser) -> None:
@@ -211,17 +241,44 @@ def _scene(options: argparse.Namespace) -> Scene:
     )
 
 
+def _in_diameters(options: argparse.Namespace) -> bool:
+    """Whether to print diameters: where they are asked for, or wires were given by them."""
+    return bool(options.diameters or options.wire_diameter)
+
+
 def run_force(options: argparse.Namespace) -> int:
+    if options.thickness == 0.0:
+        raise InputError("the sample's thickness must be positive; give --thickness 20mm or so.")
     scene = _scene(options)
     force = cutting_force(scene, options.model, options.rtol, options.extrapolate)
-    return print_answer(options, force_record(scene, force), force_text)
+    wide = _in_diameters(options)
+    if options.plot:
+        from surrogate.cutting.figure import save_force
+
+        with pictures_as(replace(picture_form(), diameters=wide)):
+            save_force(
+                scene,
+                options.plot,
+                model=options.model,
+                rtol=options.rtol,
+                thickness=options.thickness,
+            )
+    record = force_record(scene, force, options.thickness) | {"picture": options.plot}
+    return print_answer(
+        options, record, lambda record: _with_picture(force_text(record, wide), record)
+    )
+
+
+def _with_picture(text: str, record: Record) -> str:
+    return f"{text}\nWritten: {record['picture']}" if record["picture"] else text
 
 
 def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
     regime = classify(scene, options.threshold, options.model, options.rtol, options.extrapolate)
     record = regime_record(scene, regime, options.model)
-    return print_answer(options, record, regime_text)
+    wide = _in_diameters(options)
+    return print_answer(options, record, lambda record: regime_text(record, wide))
 
 
 def run_models(options: argparse.Namespace) -> None:

@@ -11,6 +11,7 @@ from contextlib import nullcontext
 from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
+from surrogate.basics.figures import pictures_as
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
 from surrogate.cli.force import (
@@ -22,6 +23,7 @@ from surrogate.cli.force import (
 )
 from surrogate.cli.identify import add_identify_options, run_identify
 from surrogate.cli.language import in_options
+from surrogate.cli.pictures import add_diameters_option, add_picture_options, picture_form_of
 from surrogate.cli.steady import add_steady_options, run_steady
 from surrogate.contact.shipped import in_use
 from surrogate.errors import ImplausibleInputWarning, WirecutError
@@ -54,15 +56,28 @@ _DESCRIPTIONS = {
 
 _EXAMPLES = {
     "wirecut": """\
-example:
+I have records of a testing machine, or forces of several wires:
+  wirecut steady cuts/ --thickness 20mm --name 'wire_{diameter}mm_{trial}' --out cuts.csv
+  wirecut identify cuts.csv --shear-modulus 685Pa --plot fit.pdf
+
+I want to know a force, and what it is made of:
+  wirecut force --shear-modulus 685Pa --toughness 1.6J/m2 --wear-strength 7.75kPa \\
+    --wire-diameter 0.2mm 0.4mm --plot force.pdf
+
+I want a map of what dominates:
+  wirecut map --preset gel --out map.pdf
+
+To try it at once, with the gel of the paper:
   wirecut identify --example
 """,
     "force": f"""\
 {_UNITS}
 
-example:
+examples:
   wirecut force --shear-modulus 685Pa --toughness 1.6J/m2 \\
     --wear-strength 7.75kPa --wire-radius 0.2mm 0.4mm
+  wirecut force --shear-modulus 685Pa --toughness 1.6J/m2 --wear-strength 7.75kPa \\
+    --wire-diameter 0.2mm 0.8mm --thickness 20mm --plot force.pdf --width 120mm
 """,
     "steady": f"""\
 FILE is an export of a testing machine (Instron, Zwick, TA.XT, MTS, Shimadzu or plain columns; text
@@ -144,12 +159,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     complete(parser)
+    if not (sys.argv[1:] if arguments is None else arguments):
+        parser.print_help()
+        return 0
     options = parser.parse_args(arguments)
     models = in_use(options.models) if options.models else nullcontext()
     try:
         with models, warnings.catch_warnings():  # the commands print the doubts with their answers
             warnings.simplefilter("ignore", ImplausibleInputWarning)
-            return options.run(options) or 0
+            with pictures_as(picture_form_of(options)):
+                return options.run(options) or 0
     except WirecutError as error:
         raise WirecutError(in_options(str(error), options.parser)) from error
 
@@ -200,6 +219,10 @@ def _parser() -> argparse.ArgumentParser:
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
         add_options(command)
+        if name in ("force", "regime", "map"):
+            add_diameters_option(command)
+        if name in ("force", "steady", "identify", "map"):
+            add_picture_options(command)
         command.add_argument(
             "--json",
             action="store_true",

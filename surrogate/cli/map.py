@@ -103,6 +103,12 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
 
 DESCRIPTION = "Regime map over two quantities or dimensionless groups: figure, tables, boundaries."
 
+_TWO_COLUMNS = 4.7
+"""Width from which a map is laid out over two columns [inch]."""
+
+_DIAMETERS = ("wire_diameter", "diameter", "D", "d_w", "2R_w")
+"""Names by which an axis or what is fixed may be told in diameters."""
+
 _DIMENSIONS: Mapping[str, Dimension] = {
     "m": LENGTH,
     "Pa": STRESS,
@@ -112,7 +118,7 @@ _DIMENSIONS: Mapping[str, Dimension] = {
 
 _NAMES = fill(
     f"NAME is a quantity or group: {', '.join(COORDINATES)}; or a letter: mu, Gamma_o, R_w, xi, "
-    "tau_w, alpha. What a map needs and is not given is solved for.",
+    "tau_w, alpha; or wire_diameter, D. What a map needs and is not given is solved for.",
     96,
     break_on_hyphens=False,
 )
@@ -154,7 +160,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add("--limits", nargs="+", default=[], metavar="MODEL", help="limits whose end is drawn")
     add("--error-of", metavar="MODEL", help="show this model's error beside the map's model")
     add("--no-contact", action="store_true", help="leave out where the wire touches the tip")
-    add("--width", choices=("single", "double"), default="single", help="columns of a journal")
     add("--out", metavar="PICTURE", help="draw the map (.pdf, .svg, .png)")
     add("--csv", metavar="FILE", help="write the map, one line a node")
     add("--boundaries-csv", metavar="FILE", help="write the boundaries, one line a point")
@@ -184,23 +189,27 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
             limits=options.limits,
             contact=not options.no_contact,
             error_of=options.error_of,
-            width=options.width,
+            width="double" if (options.width or 0.0) > _TWO_COLUMNS else "single",
         )
     if options.csv:
         made.to_csv(options.csv)
     if options.boundaries_csv:
         made.boundaries_to_csv(options.boundaries_csv)
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
-    return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | (
-        {"notes": notes} if options.out else {"notes": []}
-    )
+    return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | {
+        "notes": notes if options.out else [],
+        "diameters": options.diameters,
+    }
 
 
 def map_text(made: dict[str, Any]) -> str:
     """Return what `map_record` says, for people."""
+    if made["diameters"]:
+        made = _told_in_diameters(made)
     x, y = made["x"], made["y"]
     fixed = ", ".join(
-        f"{n} = {number(v)} {COORDINATES[n].unit}".rstrip() for n, v in made["fixed"].items()
+        f"{n} = {number(v)} {COORDINATES[n].unit if n in COORDINATES else 'm'}".rstrip()
+        for n, v in made["fixed"].items()
     )
     head = (
         f"Map over {_range(x)} and {_range(y)}, model {made['model']}\nfixed: {fixed or 'nothing'}"
@@ -229,6 +238,32 @@ def map_text(made: dict[str, Any]) -> str:
     return "\n\n".join(parts)
 
 
+def _told_in_diameters(made: dict[str, Any]) -> dict[str, Any]:
+    """Return the record of a map with diameters of wires in place of radii."""
+    radius, diameter = "wire_radius", "wire_diameter"
+    factors = [2.0 if made[axis]["name"] == radius else 1.0 for axis in "xy"]
+    told = dict(made)
+    for axis, factor in zip("xy", factors, strict=True):
+        one = made[axis]
+        ends = {end: factor * one[end] for end in ("low", "high")}
+        told[axis] = one | ends | ({"name": diameter} if factor == 2.0 else {})
+    told["fixed"] = {
+        (diameter if name == radius else name): (2.0 * value if name == radius else value)
+        for name, value in made["fixed"].items()
+    }
+    told["boundaries"] = [
+        one
+        | {
+            "lines": [
+                {end: list(np.multiply(line[end], factors)) for end in ("start", "end")}
+                for line in one["lines"]
+            ]
+        }
+        for one in made["boundaries"]
+    ]
+    return told
+
+
 def run_map(options: argparse.Namespace) -> RegimeMap:
     preset = PRESETS.get(options.preset)
     x, x_range = _axis(options.x, preset, 0)
@@ -252,9 +287,10 @@ def _axis(
     given: list[str] | None, preset: Preset | None, which: int
 ) -> tuple[str, tuple[float, float]]:
     if given is not None:
-        one = coordinate(given[0])
-        dimension = _DIMENSIONS[one.unit]
-        return one.name, (parse_quantity(given[1], dimension), parse_quantity(given[2], dimension))
+        name, factor = _in_radii(given[0])
+        one = coordinate(name)
+        low, high = (factor * parse_quantity(text, _DIMENSIONS[one.unit]) for text in given[1:])
+        return one.name, (low, high)
     if preset is None:
         raise InputError(f"the map's {'xy'[which]} is missing; give --{'xy'[which]} or --preset.")
     return (preset.x, preset.y)[which], preset.ranges[which]
@@ -266,9 +302,15 @@ def _fixed(items: list[str]) -> dict[str, float]:
         name, equals, text = item.partition("=")
         if not equals:
             raise InputError(f"{item!r} fixes nothing; write NAME=VALUE, for instance mu=685Pa.")
-        one = coordinate(name.strip())
-        fixed[one.name] = parse_quantity(text, _DIMENSIONS[one.unit])
+        radius_or_other, factor = _in_radii(name.strip())
+        one = coordinate(radius_or_other)
+        fixed[one.name] = factor * parse_quantity(text, _DIMENSIONS[one.unit])
     return fixed
+
+
+def _in_radii(name: str) -> tuple[str, float]:
+    """Return the coordinate of a name and by what its values become those of it."""
+    return ("wire_radius", 0.5) if name in _DIAMETERS else (name, 1.0)
 
 
 def _points(preset: Preset | None, made: RegimeMap) -> tuple[list[MapPoints], list[str]]:

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.figures import GREY, LARGEST_SHOWN, MEDIUM, SMALL
+from surrogate.basics.figures import (
+    FILLS,
+    GREY,
+    LARGEST_SHOWN,
+    MEDIUM,
+    SMALL,
+    picture_form,
+)
 from surrogate.contact.closed_forms import formula_name
 from surrogate.errors import InputError
 from surrogate.maps.axes import MapAxis
@@ -22,7 +29,6 @@ if TYPE_CHECKING:
 __all__ = [
     "ERROR_COLOURS",
     "ERROR_LEVELS",
-    "FILLS",
     "LINES",
     "POINT_MARKERS",
     "axis_label",
@@ -35,16 +41,6 @@ __all__ = [
     "patch",
     "set_up",
 ]
-
-FILLS = {
-    "transition": "#ffffff",
-    "toughness-and-friction": "#cfe4f2",
-    "cleavage": "#cfe4f2",
-    "wear": "#efb37c",
-    "friction-stiffness": "#6f9fc0",
-    "friction": "#6f9fc0",
-}
-"""Fill of each regime: told apart by the colour-blind, and by their lightness in grey."""
 
 LINES = ("-", (0, (3.5, 1.7)), (0, (4, 1.5, 1, 1.5)))
 """Dashes of the lines on which terms are equal."""
@@ -79,6 +75,8 @@ def axis_label(axis: MapAxis) -> str:
     'wire radius $R_w$ [mm]'
     """
     one = axis.coordinate
+    if one.name == "wire_radius" and picture_form().diameters:
+        return "wire diameter $2R_w$ [mm]"
     return f"{one.words} ${one.symbol}$ [{SHOWN_UNITS[one.unit][1]}]"
 
 
@@ -105,7 +103,8 @@ def set_up(ax: Axes, made: MapRecord) -> None:
 
 def _shown(axis: MapAxis, values: Any) -> Any:
     """Return values of an axis in the unit that figures show."""
-    return SHOWN_UNITS[axis.unit][0] * np.asarray(values)
+    twice = axis.name == "wire_radius" and picture_form().diameters
+    return SHOWN_UNITS[axis.unit][0] * (2.0 if twice else 1.0) * np.asarray(values)
 
 
 def _drawable(axis: MapAxis) -> Array:

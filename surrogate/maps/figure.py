@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from surrogate.basics.checks import flag, items, shown
 from surrogate.basics.figures import (
+    FILLS,
     figure_width,
     in_style,
     new_axes,
@@ -21,7 +22,6 @@ from surrogate.errors import InputError
 from surrogate.maps.belonging import require_the_same
 from surrogate.maps.boundaries import limit_names
 from surrogate.maps.drawing import (
-    FILLS,
     LIMIT_LINES,
     POINT_MARKERS,
     bars,

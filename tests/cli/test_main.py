@@ -37,6 +37,11 @@ def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
     text = help_text(command, capsys)
     if table := re.search(r"for instance (\S+):\n\n((?:  \S+\n)+)", text):
         (tmp_path / table[1]).write_text(table[2].replace("  ", ""))
+    (tmp_path / "cuts").mkdir()
+    for diameter, force in ((0.2, 0.094), (0.4, 0.158), (0.8, 0.276)):
+        rows = [f"{0.1 * i:.1f},{force * min(i / 50, 1) + 0.001 * (i % 3):.4f}" for i in range(200)]
+        text_of = "\n".join(["displacement_mm,force_N", *rows])
+        (tmp_path / "cuts" / f"wire_{diameter}mm_1.csv").write_text(text_of)
     examples = re.findall(r"^  wirecut (.+)$", text.replace("\\\n", ""), flags=re.MULTILINE)
     assert examples
     for example in examples:
@@ -190,7 +195,7 @@ def test_version(capsys):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        ("", "COMMAND"),
+        ("--json", "COMMAND"),
         ("cut", "invalid choice: 'cut'"),
         ("force", "--shear-modulus"),
         (f"force {SCENE}", "--wire-radius"),

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from surrogate import InputError, Scene, UnknownModelError, WirecutError, regime_map
+from surrogate.basics.figures import FILLS
 from surrogate.cutting.regimes import DOMINANCES, PARTS
-from surrogate.maps.drawing import ERROR_COLOURS, FILLS
+from surrogate.maps.drawing import ERROR_COLOURS
 from surrogate.maps.figure import plot_regime_map, save_regime_map
 from surrogate.maps.labels import GRID, NAMES, best_place, best_turned_place, blocked_by_line
 from surrogate.maps.points import MapPoints, places

@@ -21,7 +21,7 @@ from .sound import ALIASES, ARRAYS, BASE, CHOICES, FORCES, OWN, RADII, SCENE, ST
 
 __all__ = ["SCENE", "Case", "cases", "model_names"]
 
-DRAWN = ("plot_identification", "plot_regime_map")
+DRAWN = ("plot_force", "plot_identification", "plot_regime_map")
 AUTOMATIC = (
     *("cutting_force", "dissipative_force", "force_gradient", "propagate"),
     *("identify", "transition_radius", "classify"),
@@ -122,6 +122,8 @@ def _cases_of(name, function):
     parameters = list(inspect.signature(function).parameters)
     arguments = _sound(name, parameters)
     models = model_names() if "model" in parameters else (None,)
+    if name in DRAWN and "model" in parameters:
+        models = ("eq13",)  # drawing is slow, and the other models are tortured without it
     for model in models:
         if model == "auto" and name not in AUTOMATIC:
             continue

@@ -88,6 +88,7 @@ OWN = {
     "read_material": {"path": str(model_file("paam-material.json"))},
     "load_models": {"path": None},
     "contact_functions": {"rtol": None},
+    "plot_force": {"ax": None, "thickness": None},
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
     "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},
 }
@@ -132,6 +133,7 @@ ALIASES = {
     "read_records": ("file", "record", "column"),
     "steady_force": ("record", "displacement", "force", "range", "plateau"),
     "read_material": ("file",),
+    "plot_force": ("force", "dimensionless"),
     "plot_regime_map": ("map", "points", "limit", "width"),
     "plot_identification": ("identification",),
 }
