@@ -16,7 +16,8 @@ copyright = author
 release = version = surrogate.__version__
 
 extensions = [
-    "myst_parser",
+    "myst_nb",
+    "sphinx_design",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
@@ -26,7 +27,8 @@ exclude_patterns = ["_build"]
 templates_path = []
 default_role = "py:obj"
 
-myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+nb_execution_mode = "off"  # what the notebook shows is held by the tests
 myst_heading_anchors = 3
 
 autodoc_member_order = "bysource"

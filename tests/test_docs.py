@@ -60,10 +60,29 @@ def test_links_lead_somewhere(page):
             assert anchor in anchors(file.read_text(encoding="utf-8")), link
 
 
-def test_the_first_page_leads_to_the_others():
-    listed = set(re.findall(r"^(\w[\w-]*|\*)$", PAGES["index.md"], flags=re.MULTILINE))
-    assert "*" in listed
-    assert {"start", "physics", "models", "identify", "maps", "verify", "retrain", "api"} <= listed
+def test_every_page_stands_in_the_navigation_once():
+    trees = re.findall(r"^```\{toctree\}\n(.*?)^```$", PAGES["index.md"], re.MULTILINE | re.DOTALL)
+    listed = [
+        line for tree in trees for line in tree.splitlines() if line and not line.startswith(":")
+    ]
+    pages = {path.stem for path in (ROOT / "docs").glob("*.md")} - {"index"}
+    pages |= {path.stem for path in (ROOT / "docs").glob("*.ipynb")}
+    assert sorted(listed) == sorted(pages)
+    assert not any("{toctree}" in text for page, text in PAGES.items() if page != "index.md")
+
+
+def test_users_pages_come_first_and_the_front_page_has_a_picture_and_three_doors():
+    page = PAGES["index.md"]
+    order = [page.index(f"\n{name}\n") for name in ("measure", "physics", "finite-element-engine")]
+    assert order == sorted(order)
+    assert page.index("![") < page.index("{grid}")
+    assert re.findall(r"\{grid-item-card\} (.*)", page) == [
+        "I have forces",
+        "I want a force",
+        "I want a map",
+    ]
+    for door in re.findall(r":link: (\w+)", page):
+        assert (ROOT / "docs" / f"{door}.md").is_file()
 
 
 @pytest.mark.parametrize("page", pages_with("python", ">>>"))
