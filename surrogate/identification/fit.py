@@ -12,7 +12,7 @@ from surrogate.basics.checks import LARGEST, Quantity, one_number
 from surrogate.basics.records import html_table, number
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.identification.doubts import fit_warnings
+from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.open_questions import undecided
 from surrogate.identification.profile_fit import fit_profile
@@ -124,8 +124,13 @@ class Identification(Estimate):
     """
 
     @property
+    def objections(self) -> tuple[str, ...]:
+        """Why the result should not be used as it stands, in words; empty where it may be."""
+        return tuple(objections(self))
+
+    @property
     def warnings(self) -> tuple[str, ...]:
-        """What makes the result doubtful, in words."""
+        """What makes the result doubtful, in words; the objections first."""
         return tuple(fit_warnings(self))
 
     @property

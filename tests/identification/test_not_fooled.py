@@ -8,6 +8,7 @@ import pytest
 from torture.coverage import drawn, outcome
 
 from surrogate import InputError, Scene, cutting_force, identify
+from surrogate.identification.outlier import outlier
 
 RADII = np.array([0.125e-3, 0.210e-3, 0.275e-3, 0.390e-3, 0.470e-3])
 NOISE = np.array([0.03, -0.02, 0.01, 0.02, -0.03])
@@ -135,8 +136,9 @@ def test_forces_that_fall_with_the_radius_are_doubted_before_any_number():
     fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [9.0, 7.0, 5.0, 4.0], 685.0)
     assert fit.wear_strength == 0.0
     assert np.isnan(fit.toughness_std)
-    assert any("explains nothing" in sentence for sentence in fit.warnings[:2])
-    assert any("above the smallest force" in sentence for sentence in fit.warnings)
+    assert "the forces fall with the radius as the curve cannot" in fit.objections[0]
+    assert any("above the smallest force" in sentence for sentence in fit.objections)
+    assert str(fit).startswith("Do not use the numbers below: the forces fall")
     line = identify([1e-4, 2e-4, 4e-4, 5e-4], [9.0, 7.0, 5.0, 4.0], 685.0, model="eq13")
     assert not any("standard deviations off" in sentence for sentence in line.warnings)
 
@@ -154,7 +156,21 @@ def test_an_outlier_is_named_by_a_curve_too(std):
     force = forces(radius) + 0.1 * np.random.default_rng(2).standard_normal(10)
     force[3] += 2.0
     fit = identify(radius, force, MODULUS, force_std=std)
-    assert any(sentence.startswith("cut 4 ") for sentence in fit.warnings)
+    told = next(sentence for sentence in fit.warnings if sentence.startswith("cut 4 "))
+    others = np.arange(10) != 3
+    less = identify(radius[others], force[others], MODULUS, force_std=std)
+    assert f"Without it Gamma_o = {less.toughness:.3g} J/m2" in told
+    assert f"tau_w = {1e-3 * less.wear_strength:.3g} kPa" in told
+
+
+def test_a_line_without_a_cut_is_that_of_the_others():
+    force = forces(np.append(RADII, 6e-4)) + np.array([0.0, 0.1, -0.1, 3.0, 0.1, 0.0])
+    fit = identify(np.append(RADII, 6e-4), force, model="eq13")
+    bad, others = outlier(fit), np.arange(6) != 3
+    less = identify(np.append(RADII, 6e-4)[others], force[others], model="eq13")
+    assert bad.cut == 3
+    assert bad.toughness == pytest.approx(less.toughness, rel=1e-9)
+    assert bad.wear_strength == pytest.approx(less.wear_strength, rel=1e-9)
 
 
 # What may be left out, and what a result is
