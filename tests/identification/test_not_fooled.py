@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from torture.coverage import drawn, outcome
 
-from surrogate import InputError, Scene, cutting_force, identify
+from surrogate import InputError, Scene, contact_functions, cutting_force, identify
 from surrogate.identification.outlier import outlier
 
 RADII = np.array([0.125e-3, 0.210e-3, 0.275e-3, 0.390e-3, 0.470e-3])
@@ -180,6 +180,17 @@ def test_a_negative_exponent_is_the_same_solid():
     """l_1 = 1/l_2 in plane strain, so that alpha and -alpha give the same energy."""
     one, other = (identify(RADII, NOISY, MODULUS, stiffening_exponent=a) for a in (3.0, -3.0))
     assert (one.toughness, one.wear_strength) == (other.toughness, other.wear_strength)
+    scenes = [Scene(MODULUS, 2.0, RADII, 0.1, 7e3, alpha) for alpha in (3.0, -3.0)]
+    assert scenes[1].stiffening_exponent == 3.0
+    np.testing.assert_array_equal(*(cutting_force(scene).total for scene in scenes))
+    many = Scene(MODULUS, 2.0, 1e-4, stiffening_exponent=[-3.0, 2.0, -4])
+    np.testing.assert_array_equal(many.stiffening_exponent, [3.0, 2.0, 4.0])
+    for model in ("table", "eq9"):
+        arcs = [contact_functions(3.0, alpha, model).arc for alpha in (3.0, -3.0)]
+        assert arcs[0] == arcs[1]
+    for bad in (0.0, -np.inf, np.nan, [-2.0, 0.0]):
+        with pytest.raises(InputError, match="finite and positive"):
+            Scene(MODULUS, 2.0, 1e-4, stiffening_exponent=bad)
     stretch, (plus, minus) = np.linspace(0.5, 3.0, 20), (3.0, -3.0)
     energy = [(stretch**a + stretch**-a - 2.0) / a**2 for a in (plus, minus)]
     np.testing.assert_allclose(*energy, rtol=1e-15)
