@@ -154,7 +154,7 @@ def test_intervals_cover_the_truth_and_sound_experiments_seldom_warn(known):
             covered[i] += low <= truth <= high
         warned += any("outlier" in sentence or "chi^2" in sentence for sentence in fit.warnings)
     assert covered / count == pytest.approx(0.95, abs=0.017)
-    due = 0.05 if known else 0.04  # 4 % for an outlier, 1 % for a misfit of known errors
+    due = 0.04 if known else 0.03  # 3 % for an outlier, 1 % for a misfit of known errors
     assert warned / count < due + 3.0 * np.sqrt(due * (1.0 - due) / count)
 
 

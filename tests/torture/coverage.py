@@ -1,8 +1,9 @@
 """Made-up experiments, in and out of a model's range: how often printed intervals hold the truth.
 
 What the user states is true: the stated standard errors are those that the numbers were drawn with.
-The truth is the fitted model times a smooth error within its measured bounds, and beyond its range
-the arc goes on with up to the slope that the continuation drops.
+The truth is the fitted model times a smooth error within its measured bounds. Beyond the range ln A
+and ln B drift away from the continuation at a rate in ln g that is drawn evenly from `DRIFTS`,
+whatever the fit itself allows for there; no arc is longer than 2.
 """
 
 import math
@@ -19,6 +20,11 @@ __all__ = ["Outcome", "drawn", "forgotten_friction", "gross_error", "outcome"]
 
 MODEL = "table"
 CONFIDENCE = 0.95
+DRIFTS = {"arc": ((-0.01, 0.01), (-0.05, 0.2)), "load": ((-0.005, 0.005), (-0.02, 0.02))}
+"""Drift of ln A and of ln B for each factor e below and above the range. Below, the slope of ln A
+changes by 0.01 over the last decade inside; above, it may stay flat, fall a little or go on growing
+as it last does."""
+
 GROSS = 10.0
 """Standard deviations of one cut that a gross error is off."""
 
@@ -64,7 +70,10 @@ def drawn(random, **fixed):
     radius = middle * np.geomspace(spread**-0.5, spread**0.5, wires)
     g = toughness / (modulus * radius)
     arc, load = model.contact(("arc", "normal_load"), g, alpha)
-    arc, load = arc * _error(random, model, g, alpha, 0), load * _error(random, model, g, alpha, 1)
+    arc, load = (
+        arc * _error(random, model, g, alpha, "arc"),
+        load * _error(random, model, g, alpha, "load"),
+    )
     exact = toughness + 2.0 * radius * (wear * np.minimum(arc, 2.0) + friction * modulus * load)
     noise = _log_uniform(random, 0.01, 0.2)
     proportional = bool(random.integers(2))
@@ -102,14 +111,15 @@ def drawn(random, **fixed):
 
 def _error(random, model, g, alpha, which):
     """Return the factor by which the truth differs from the model."""
-    error = contact_error(model, g, alpha)
-    near, drift = ((error.arc, error.arc_drift), (error.load, error.load_drift))[which]
+    near = getattr(contact_error(model, g, alpha), which)
     length = _log_uniform(random, 0.3, 3.0)
     apart = np.abs(np.log(g)[:, np.newaxis] - np.log(g)) / length
     root = np.linalg.cholesky(np.exp(-(apart**2)) + 1e-9 * np.eye(g.size))
     smooth = np.clip(root @ random.standard_normal(g.size), -math.sqrt(3.0), math.sqrt(3.0))
-    slope = random.uniform(-math.sqrt(3.0), math.sqrt(3.0))
-    return np.exp(near * smooth + drift * slope)
+    (low, high), (below, above) = model.limits.g, DRIFTS[which]
+    drift = random.uniform(*below) * np.log(np.maximum(low / g, 1.0))
+    drift += random.uniform(*above) * np.log(np.maximum(g / high, 1.0))
+    return np.exp(near * smooth + drift)
 
 
 def outcome(experiment, outliers=False, **changes):
