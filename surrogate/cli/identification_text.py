@@ -15,6 +15,7 @@ from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.fit import Identification
+from surrogate.identification.friction import SUPPOSED
 from surrogate.identification.open_questions import wire_in_words
 from surrogate.identification.summary import (
     against_use,
@@ -143,6 +144,7 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "wear_strength_limited_by": fit.wear_strength_limited_by,
         "contributions": dict(fit.contributions),
         "friction_sensitivity": fit.friction_sensitivity,
+        "with_friction": _with_friction(fit),
         "covariance": fit.covariance.tolist(),
         "correlation": fit.correlation,
         "r_squared": fit.r_squared,
@@ -157,6 +159,13 @@ def identification_record(fit: Identification, material: Material) -> Record:
         **alternatives,
         **({} if fit.has_scatter else unknown),
     }
+
+
+def _with_friction(fit: Identification) -> list[Record]:
+    """Return what other friction coefficients would make of forces that have a modulus."""
+    if "shear_modulus" in fit.assumed:
+        return []
+    return [asdict(fit.with_friction(xi)) for xi in SUPPOSED]
 
 
 _ESTIMATES = ("toughness", "wear_strength")

@@ -12,6 +12,7 @@ from surrogate.basics.records import number
 from surrogate.identification.digits import below_digits, rounded
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
+from surrogate.identification.friction import forgotten_friction_in_words
 from surrogate.identification.open_questions import undecided
 
 __all__ = [
@@ -103,7 +104,7 @@ def _range(value: float, low: float, high: float, limits: tuple[str, str], sever
 
 
 def assumptions(fit: Estimate) -> str:
-    """Return what was given and what was assumed, with what the friction would change."""
+    """Return what was given and what was assumed."""
     xi = "friction_coefficient" in fit.assumed
     parts = []
     if "shear_modulus" not in fit.assumed:
@@ -114,14 +115,7 @@ def assumptions(fit: Estimate) -> str:
     )
     alpha = " (assumed)" if "stiffening_exponent" in fit.assumed else ""
     parts.append(f"alpha = {number(fit.stiffening_exponent)}{_plus(fit.stiffening_std)}{alpha}")
-    gamma, tau = fit.friction_sensitivity
-    sentence = f"With {', '.join(parts)}"
-    if xi and math.isfinite(gamma) and "shear_modulus" not in fit.assumed:
-        sentence += (
-            f"; friction of xi = 0.1 would change Gamma_o by {0.1 * gamma:+.2g} J/m2 and tau_w by "
-            f"{1e-4 * tau:+.2g} kPa"
-        )
-    return f"{sentence}."
+    return f"With {', '.join(parts)}."
 
 
 def _plus(std: float) -> str:
@@ -174,7 +168,8 @@ def is_answer(sentence: str) -> bool:
 def rests_on(fit: Estimate) -> list[str]:
     """Return sentences on the scatter, what was given or assumed, and the sources of error."""
     scatter = "" if fit.scatter is None else f"Scatter of a cut: {fit.scatter.words}."
-    return [sentence for sentence in (scatter, assumptions(fit), budget(fit)) if sentence]
+    sentences = (scatter, assumptions(fit), forgotten_friction_in_words(fit), budget(fit))
+    return [sentence for sentence in sentences if sentence]
 
 
 def brief(first: list[str], last: list[str], where: str, most: int = MOST_LINES) -> str:

@@ -181,8 +181,8 @@ def profile_misfit(misfit: Misfit, threshold: Callable[[float], float]) -> Profi
     )
 
 
-def smallest_misfit(misfit: Misfit) -> float:
-    """Return the lowest misfit of the search, without its other minima.
+def smallest_misfit(misfit: Misfit) -> tuple[float, float, float]:
+    """Return the lowest misfit of the search, its Gamma_o [J/m2] and tau_w [Pa], no other minima.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def smallest_misfit(misfit: Misfit) -> float:
     """
     lowest, highest, _ = _limits(misfit)
     first = max(float(misfit.cuts.force.max()), lowest)
-    return _lowest(misfit, _nodes(misfit, lowest, min(first, highest)))[0]
+    return _lowest(misfit, _nodes(misfit, lowest, min(first, highest)))
 
 
 def without_each(misfit: Misfit, toughness: Array) -> Array:

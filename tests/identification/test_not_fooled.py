@@ -53,7 +53,33 @@ def test_exact_forces_far_out_of_range_give_back_the_material(g):
     assert low <= toughness <= high
 
 
+def test_a_modulus_far_above_the_range_is_told_and_does_not_move_the_answer():
+    """Where A hardly changes over the wires any modulus gives the line's answer, less its slope."""
+    radius, force = [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2]
+    low, high = identify(radius, force, model="eq13").toughness_interval
+    inside, far = (identify(radius, force, mu) for mu in (3e4, 1e7))
+    assert inside.toughness < far.toughness < high
+    assert low < far.toughness
+    assert far.warnings[0].startswith("4 of 4 cuts (R_w = 0.1, 0.2, 0.4, 0.5 mm) are at g = ")
+    assert "xi = 0.1 does not fit the forces" in far.summary()  # it alone would need 10 times them
+
+
 # What an interval contains
+
+
+@pytest.mark.parametrize("model", ["table", "eq13"])
+def test_other_friction_is_that_of_another_identification(model):
+    fit = identify(RADII, NOISY, 3e3, model=model, force_std=0.2)
+    other = fit.with_friction(0.2)
+    told = identify(RADII, NOISY, 3e3, model=model, force_std=0.2, friction_coefficient=0.2)
+    nodes = 10.0 ** (1 / 48) / 8**4  # spacing of the scan after four zooms by 8
+    assert other.toughness == pytest.approx(told.toughness, rel=nodes)
+    assert other.wear_strength == pytest.approx(told.wear_strength, rel=nodes)
+    assert other.fits
+    assert "Friction was taken to be 0: with xi = 0.1, Gamma_o = " in fit.summary()
+    assert "Friction was taken" not in told.summary()
+    with pytest.raises(InputError, match="friction_coefficient must be"):
+        fit.with_friction(-0.1)
 
 
 def test_every_source_of_error_widens_the_intervals_and_is_told():

@@ -10,13 +10,24 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import nct, norm
 
 import surrogate
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import WirecutError
+from surrogate.identification.friction import SUPPOSED
+from surrogate.identification.outlier import FALSE_ALARM, outlier
 from surrogate.inference.continuation import contact_error
+from surrogate.inference.quantiles import normal_quantile, student_quantile
 
-__all__ = ["Outcome", "drawn", "forgotten_friction", "gross_error", "outcome"]
+__all__ = [
+    "Outcome",
+    "drawn",
+    "forgotten_friction",
+    "gross_error",
+    "least_missed",
+    "outcome",
+]
 
 MODEL = "table"
 CONFIDENCE = 0.95
@@ -43,7 +54,7 @@ class Experiment:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Whether the intervals hold the truth, and what was said."""
+    """Whether the intervals hold the truth, and whether an outlier or a misfit was said."""
 
     kinds: dict
     inside: tuple[bool, bool]
@@ -134,34 +145,67 @@ def outcome(experiment, outliers=False, **changes):
         bool(low <= truth <= high) for truth, (low, high) in zip(truths, intervals, strict=True)
     )
     ends = (*fit.toughness_limited_by, *fit.wear_strength_limited_by)
-    warned = outliers and any("an outlier" in sentence for sentence in fit.warnings)
+    warned = outliers and (outlier(fit) is not None or any("scatter" in s for s in fit.objections))
     return Outcome(experiment.kinds, inside, any(end != "forces" for end in ends), warned, fit)
 
 
 def gross_error(random, experiment):
-    """Return the experiment with one cut off by a gross error; None where that makes no force."""
+    """Return the experiment with one cut off by a gross error, and its place."""
     force = experiment.stated["force"].copy()
     which = int(random.integers(force.size))
     force[which] += random.choice([-1.0, 1.0]) * GROSS * experiment.std[which]
     if force[which] <= 0.0:
         force[which] += 2.0 * GROSS * experiment.std[which]
-    return replace(experiment, stated={**experiment.stated, "force": force})
+    return replace(experiment, stated={**experiment.stated, "force": force}), which
+
+
+def least_missed(experiment, fit, which):
+    """Return how often the best test misses a gross error in a cut, at the alarms of `outlier`.
+
+    Of a force that is linear about the clean fit and a scatter whose shape is known: the deleted
+    residual then follows a noncentral t distribution, or a normal one where its size is known too,
+    and no test of one outlier sees more (Ferguson, as `outlier` cites).
+    """
+    cuts, dof = experiment.std.size, experiment.std.size - 3
+    design = fit.force_slopes(fit.wire_radius) / experiment.std[:, np.newaxis]
+    if not np.all(np.isfinite(design)):
+        return math.nan
+    q, _ = np.linalg.qr(design / np.linalg.norm(design, axis=0))
+    off = GROSS * math.sqrt(max(1.0 - float(np.sum(q[which] ** 2)), 0.0))
+    confidence = 1.0 - FALSE_ALARM / cuts
+    if experiment.stated["force_std"] is not None:
+        limit, off_by = normal_quantile(confidence), norm(off)
+    elif dof < 1:
+        return 1.0
+    else:
+        limit, off_by = student_quantile(confidence, dof), nct(dof, off)
+    return float(off_by.cdf(limit) - off_by.cdf(-limit))
 
 
 def forgotten_friction(experiment):
-    """Return the bias that forgotten friction brings and what the sensitivity says of it.
+    """Return the bias that forgotten friction brings and what is printed of it.
 
-    Both of shape (2,), of Gamma_o and tau_w; None where an estimate is held by a limit.
+    Both of shape (2,), of Gamma_o and tau_w; None where an estimate is held by a limit. What is
+    printed, the fits with xi of `SUPPOSED`, is interpolated, or continued along its last piece.
     """
     xi = experiment.stated["friction_coefficient"]
     told = outcome(experiment)
     forgotten = outcome(experiment, friction_coefficient=None, friction_std=0.0)
     if told is None or forgotten is None or told.fit.at_limit or forgotten.fit.at_limit:
         return None
-    bias = np.array(
-        [
-            forgotten.fit.toughness - told.fit.toughness,
-            forgotten.fit.wear_strength - told.fit.wear_strength,
-        ]
+    zero, first, last = (_pair(one) for one in (forgotten.fit, *_supposed(forgotten.fit)))
+    low, high = SUPPOSED
+    printed = (
+        first + (last - first) * (xi - low) / (high - low)
+        if xi > low
+        else zero + (first - zero) * xi / low
     )
-    return bias, -xi * np.array(forgotten.fit.friction_sensitivity)
+    return zero - _pair(told.fit), zero - printed
+
+
+def _supposed(fit):
+    return (fit.with_friction(xi) for xi in SUPPOSED)
+
+
+def _pair(fit):
+    return np.array([fit.toughness, fit.wear_strength])
