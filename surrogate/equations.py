@@ -87,6 +87,7 @@ TABULATED_STIFFENING = Quantity(
     lower=min(TABLE_1),
     upper=max(TABLE_1),
     error=DomainError,
+    even=True,
 )
 
 ELASTO_COHESIVE_LENGTH = Quantity(

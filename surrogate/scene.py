@@ -58,7 +58,9 @@ class Scene(Record):
     wear_strength : float or array_like, default 0
         Shear strength tau_w of interface and solid [Pa].
     stiffening_exponent : float or array_like, default 2
-        Exponent alpha of the Ogden solid, Eq. (1) [-]; 2 is neo-Hookean.
+        Exponent alpha of the Ogden solid, Eq. (1) [-]; 2 is neo-Hookean. A negative one becomes its
+        absolute value: in plane strain an incompressible solid has l_1 = 1/l_2, so that both are
+        the same solid.
 
     Raises
     ------

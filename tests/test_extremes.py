@@ -140,9 +140,34 @@ REFUSED = {
 }
 
 
+EVEN, SIGNED = (
+    ("stiffening_exponent", "alpha"),
+    ("negative", "negative subnormal", "negative within"),
+)
+
+
+def answer(function, arguments):
+    """Return what a function says as text; None where it refuses."""
+    try:
+        return str(function(**arguments))
+    except InputError:
+        return None
+
+
+@every_cell
+def test_the_sign_of_the_exponent_plays_no_part(function, arguments, name):
+    if name not in EVEN:
+        return
+    for value in (REFUSED[kind] for kind in SIGNED):
+        with_sign, without = ({**arguments, name: one} for one in (value, np.abs(value)))
+        assert answer(function, with_sign) == answer(function, without)
+
+
 @every_cell
 def test_what_is_no_quantity_is_refused_by_name(function, arguments, name):
     for kind, value in REFUSED.items():
+        if kind in SIGNED and name in EVEN and answer(function, {**arguments, name: np.abs(value)}):
+            continue  # has an answer, that of the number without its sign
         with pytest.raises(InputError) as caught:
             function(**{**arguments, name: value})
         assert re.match(rf"{name} must be .* but {name}.*; .*\.$", str(caught.value)), kind

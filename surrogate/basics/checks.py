@@ -60,7 +60,8 @@ INFINITY = float("inf")
 class Quantity:
     """A named physical quantity with its unit, the range it may take, and what to do otherwise.
 
-    The bounds are inclusive; nan is never inside.
+    The bounds are inclusive; nan is never inside. Of an `even` quantity only the size counts: where
+    a number is outside, all are taken without their signs.
 
     Examples
     --------
@@ -80,6 +81,7 @@ class Quantity:
     lower: float = 0.0
     upper: float = LARGEST
     error: type[InputError] = InputError
+    even: bool = False
 
     def checked(self, value: object) -> FloatOrArray:
         """Return `value` as a float or a float64 array, or raise an error that says why not."""
@@ -91,6 +93,8 @@ class Quantity:
                 return self._checked_array(converted)
             value = converted
         if not self.lower <= value <= self.upper:
+            if self.even and self.lower <= abs(value) <= self.upper:
+                return abs(value)
             raise self._out_of_range(f"{self.name} = {value!r}", "")
         return value
 
@@ -110,6 +114,8 @@ class Quantity:
     def _checked_array(self, array: NDArray[np.float64]) -> NDArray[np.float64]:
         # Extrema carry nan along and need no full-size temporary.
         if array.size and not (self.lower <= array.min() and array.max() <= self.upper):
+            if self.even and array.min() < 0.0:
+                return self._checked_array(np.abs(array))
             outside = ~((array >= self.lower) & (array <= self.upper))
             index = tuple(int(i) for i in np.argwhere(outside)[0])
             place = ", ".join(map(str, index))
@@ -253,7 +259,9 @@ STIFFENING_EXPONENT = Quantity(
     "",
     "give the Ogden exponent alpha, which is 2 for a neo-Hookean solid",
     lower=SMALLEST,
+    even=True,
 )
+"""In plane strain the incompressible solid has l_1 = 1/l_2: alpha and -alpha are the same solid."""
 WORK_OF_FRACTURE = Quantity(
     "work_of_fracture",
     "J/m^3",

@@ -15,8 +15,15 @@ from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.fit import Identification
+from surrogate.identification.friction import SUPPOSED
 from surrogate.identification.open_questions import wire_in_words
-from surrogate.identification.summary import answer, brief, is_answer, rests_on
+from surrogate.identification.summary import (
+    against_use,
+    answer,
+    brief,
+    is_answer,
+    rests_on,
+)
 from surrogate.inference.continuation import is_continued
 from surrogate.inference.line_fit import is_linear
 from surrogate.reading.material import Material
@@ -107,6 +114,7 @@ def identification_record(fit: Identification, material: Material) -> Record:
     """Return estimates, lengths, transition radii, wires and warnings of an identification."""
     lengths = _lengths(fit, material)
     alternatives = alternatives_record(fit, material)
+    unknown = {f"{name}_{what}": None for name in _ESTIMATES for what in ("std", "interval")}
     return {
         "answer": answer(fit),
         "rests_on": rests_on(fit),
@@ -136,6 +144,7 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "wear_strength_limited_by": fit.wear_strength_limited_by,
         "contributions": dict(fit.contributions),
         "friction_sensitivity": fit.friction_sensitivity,
+        "with_friction": _with_friction(fit),
         "covariance": fit.covariance.tolist(),
         "correlation": fit.correlation,
         "r_squared": fit.r_squared,
@@ -143,11 +152,23 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "lengths": lengths,
         "transition_radii": _transition_radii(fit, material, lengths),
         "wires": _identified_wires(fit),
+        "objections": [*_beside_pure_shear(fit, material), *fit.objections],
         "warnings": [*_beside_pure_shear(fit, material), *fit.warnings],
         "model_error": fit.model_error,
         **profile_record(fit),
         **alternatives,
+        **({} if fit.has_scatter else unknown),
     }
+
+
+def _with_friction(fit: Identification) -> list[Record]:
+    """Return what other friction coefficients would make of forces that have a modulus."""
+    if "shear_modulus" in fit.assumed:
+        return []
+    return [asdict(fit.with_friction(xi)) for xi in SUPPOSED]
+
+
+_ESTIMATES = ("toughness", "wear_strength")
 
 
 def _known(fit: Identification) -> Record:
@@ -261,7 +282,7 @@ def identification_text(record: Record) -> str:
     picture = f"Figure written to {record['picture']}" if record["picture"] else ""
     if not record["verbose"]:
         return brief(
-            [f"{record['answer']}.", *_remarks(record)],
+            [*_first(record), *_remarks(record)],
             [
                 *record["rests_on"],
                 f"{head}; --verbose prints all tables.",
@@ -272,9 +293,9 @@ def identification_text(record: Record) -> str:
     return "\n\n".join(
         section
         for section in (
-            "\n".join(fill(s, 96, subsequent_indent="  ") for s in (f"{record['answer']}.",)),
+            "\n".join(fill(s, 96, subsequent_indent="  ") for s in _first(record)),
             head,
-            _warnings_text(record["warnings"]),
+            _warnings_text(_reservations(record)),
             _properties_text(record),
             _estimates_text(record),
             profile_text(record),
@@ -289,8 +310,17 @@ def identification_text(record: Record) -> str:
     )
 
 
+def _first(record: Record) -> list[str]:
+    """Return the answer, after what says that it should not be used."""
+    return [*against_use(record["objections"]), f"{record['answer']}."]
+
+
+def _reservations(record: Record) -> list[str]:
+    return [sentence for sentence in record["warnings"] if sentence not in record["objections"]]
+
+
 def _remarks(record: Record) -> list[str]:
-    remarks = [f"Warning: {sentence}." for sentence in record["warnings"]]
+    remarks = [f"Warning: {sentence}." for sentence in _reservations(record)]
     undecided = [each for each in record.get("undecided", ()) if not is_answer(each)]
     remarks += [f"Undecided: {sentence}." for sentence in undecided]
     if record.get("further_wire_words"):
@@ -324,11 +354,11 @@ def _estimates_text(record: Record) -> str:
         ("cleavage toughness Gamma_o", "toughness", 1.0, "J/m2"),
         ("wear strength tau_w", "wear_strength", 1e-3, "kPa"),
     ):
-        low, high = record[f"{key}_interval"]
+        low, high = record[f"{key}_interval"] or (math.nan, math.nan)
         std = _std_text(record[key], record[f"{key}_std"], scale)
         interval = f"{number(scale * low)} to {_end(scale * high)}"
-        if math.isnan(low) or std == NO_SCATTER:
-            interval = UNKNOWN if math.isnan(low) else std
+        if math.isnan(low):
+            interval = UNKNOWN
         rows.append((name, number(scale * record[key]), unit, std, interval))
     title, probability = f"Identified ({record['model']})", f"{100.0 * record['confidence']:.4g} %"
     header = (title, "value", "unit", "std. error", f"{probability} interval")

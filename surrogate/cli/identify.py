@@ -228,7 +228,7 @@ def run_identify(options: argparse.Namespace) -> int:
     record |= identification_record(fit, material)
     record["verbose"] = options.verbose
     print_record(options, record, identification_text)
-    return DOUBTED if measurements.warnings else 0
+    return DOUBTED if record["objections"] or measurements.warnings else 0
 
 
 def _material(options: argparse.Namespace) -> Material:

@@ -105,6 +105,11 @@ FILE is a table with commas, whose header names quantity and unit, for instance 
 
 wire_diameter_mm is understood as well; the last column is optional. The friction coefficient
 cannot be identified from such data: give it, or it is taken to be 0.
+
+The answer is the first sentence; doubts follow. Where a doubt says that the numbers should not be
+used (units that cannot be, forces that the model does not meet, an impossible toughness, forces
+without any scatter), it comes before them, and the exit code is 3; 0 otherwise, and 2 after bad
+input.
 {_UNITS}
 
 examples:
@@ -142,8 +147,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     int
         0, or 2 after bad input, with the reason in one line on the standard error stream, or 3
-        where an answer was printed, but a doubt that is printed with it says not to use it: a
-        quantity is implausible, or records have no steady force.
+        where an answer was printed, but a doubt that is printed before it says not to use it, or
+        records have no steady force.
 
     Examples
     --------

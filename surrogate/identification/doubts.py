@@ -11,28 +11,22 @@ from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.contact.fitted import FittedModel
 from surrogate.identification.estimate import OPEN_ENDS, Estimate
+from surrogate.identification.outlier import outlier
 from surrogate.identification.slips import slip_in_words
 from surrogate.inference.continuation import contact_error
-from surrogate.inference.inputs import Array
-from surrogate.inference.profile import without_each
-from surrogate.inference.quantiles import (
-    chi_squared_limit,
-    exceeds_f,
-    normal_quantile,
-    student_quantile,
-)
+from surrogate.inference.line_fit import solve_least_squares
+from surrogate.inference.quantiles import chi_squared_limit, exceeds_f, student_quantile
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import doubts
 
-__all__ = ["fit_warnings"]
+__all__ = ["fit_warnings", "objections"]
 
 LARGEST_CONDITION = 30.0
 """Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
 told apart; met when the radii differ by less than about 7 % (one standard deviation)."""
 
 FALSE_ALARM = 0.01
-"""Probability that a sound experiment, of however many cuts, is given an outlier warning; and
-the same for a misfit warning."""
+"""Probability that a sound experiment is given a warning of misfit."""
 
 ALIKE = 1.2
 """Thickest wire over thinnest below which radii are alike."""
@@ -43,20 +37,34 @@ POOR = 0.5
 SLIP_GAIN = 10.0
 """Times smaller that a slip's misfit must be where nothing else says what is acceptable."""
 
-FEWEST_OTHERS = 3
-"""Degrees of freedom from which the other cuts tell how far off one of them is."""
 
-LEAST_SCATTER = 1e-3
-"""Of the forces; others that agree better do so by chance or by rounding."""
+def objections(fit: Estimate) -> Iterator[str]:
+    """Yield one sentence for each reason not to use an identification as it stands.
 
-EXACT = 1e-5
-"""Of the forces; where forces share errors, what is met better is searched no further."""
+    Parameters
+    ----------
+    fit : Estimate
+        The identification to look at.
 
-_ROUNDING = 64.0 * np.finfo(float).eps
+    Yields
+    ------
+    str
+        What is wrong, with the numbers, and what would help.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> for sentence in objections(identify([1e-4, 2e-4, 4e-4], [9.0, 7.0, 4.0], model="eq13")):
+    ...     print(sentence[:33])
+    the toughness (10.5 J/m2) is abov
+    the wear strength is negative (-4
+    """
+    for reasons in (_misfit, _physical, _negative, _exact, _implausible):
+        yield from reasons(fit)
 
 
 def fit_warnings(fit: Estimate) -> Iterator[str]:
-    """Yield one sentence for each reason to doubt an identification.
+    """Yield one sentence for each reason to doubt an identification: first the objections.
 
     Parameters
     ----------
@@ -75,18 +83,16 @@ def fit_warnings(fit: Estimate) -> Iterator[str]:
     ...     print(sentence[:28])
     only 2 different radii: they
     """
+    yield from objections(fit)
     for reasons in (
         _limits,
         _out_of_range,
-        _misfit,
-        _physical,
-        _negative_estimates,
+        _unexplained,
         _outlier,
-        _implausible,
         _too_few_radii,
         _condition,
         _regime,
-        _scatter,
+        _without_scatter,
     ):
         yield from reasons(fit)
 
@@ -130,11 +136,12 @@ def _condition(fit: Estimate) -> Iterator[str]:
         )
 
 
-def _negative_estimates(fit: Estimate) -> Iterator[str]:
+def _negative(fit: Estimate) -> Iterator[str]:
+    """Object to an interval below 0, which no scatter explains."""
     remedy = "check the units, the friction coefficient and that radii are not diameters"
-    if fit.toughness < 0.0:
+    if fit.toughness < 0.0 and not fit.toughness_interval[1] >= 0.0:
         yield f"the toughness is negative ({fit.toughness:.4g} J/m2) and is not clipped; {remedy}"
-    if fit.wear_strength < 0.0:
+    if fit.wear_strength < 0.0 and not fit.wear_strength_interval[1] >= 0.0:
         yield (
             f"the wear strength is negative ({fit.wear_strength:.4g} Pa) and is not clipped: "
             f"the force does not grow with the radius as much as friction alone asks; {remedy}"
@@ -210,7 +217,7 @@ def _out_of_range(fit: Estimate) -> Iterator[str]:
 
 def _misfit(fit: Estimate) -> Iterator[str]:
     """Say that the forces are not met, and which slip would explain it."""
-    if fit.dof <= 0 or _is_exact(fit):
+    if fit.dof <= 0 or fit.is_exact:
         return
     limit = chi_squared_limit(fit.dof, FALSE_ALARM)
     if fit.reduced_chi_squared is not None:
@@ -235,11 +242,39 @@ def _misfit(fit: Estimate) -> Iterator[str]:
                 f"{_cause(fit, acceptable)}the intervals cannot be relied on"
             )
             return
-    if fit.r_squared < POOR:
+    yield from _another_line(fit, total)
+
+
+def _another_line(fit: Estimate, total: float) -> Iterator[str]:
+    """Object where a straight line of any slope meets forces of unknown errors far better.
+
+    Student's test of its slope, one-sided.
+    """
+    radius, weight, dof = fit.wire_radius, fit.cuts.weight, fit.force.size - 2
+    if np.unique(radius).size < 3 or not fit.r_squared < POOR:
+        return
+    columns = np.stack([np.ones_like(radius), radius / radius.max()], axis=1)
+    line = solve_least_squares(columns * weight[:, np.newaxis], fit.force * weight)
+    if not np.isfinite(line.condition):
+        return
+    rest = float(np.sum((weight * (fit.force - columns @ line.estimate)) ** 2))
+    if total > rest * (1.0 + student_quantile(1.0 - 2.0 * FALSE_ALARM, dof) ** 2 / dof):
+        trend = "fall" if line.estimate[1] < 0.0 else "grow"
+        yield (
+            f"the forces {trend} with the radius as the {_shape(fit)} cannot (R^2 = "
+            f"{max(fit.r_squared, 0.0):.2f}; a straight line of any slope leaves "
+            f"{rest / total:.2g} of the sum of squares); {_cause(fit, total / SLIP_GAIN)}"
+            "look at the forces before any number"
+        )
+
+
+def _unexplained(fit: Estimate) -> Iterator[str]:
+    """Say that the forces hardly vary by more than they scatter."""
+    if fit.force_std is None and fit.dof > 0 and not fit.is_exact and fit.r_squared < POOR:
         yield (
             f"the {_shape(fit)} explains {'nothing' if fit.r_squared <= 0.0 else 'little'} of how "
-            f"the forces vary (R^2 = {fit.r_squared:.2f}); "
-            f"{_cause(fit, total / SLIP_GAIN)}look at the forces before any number"
+            f"the forces vary (R^2 = {max(fit.r_squared, 0.0):.2f}): they hardly differ by more "
+            "than they scatter; cut with thinner and thicker wires, and repeat"
         )
 
 
@@ -301,63 +336,32 @@ def _domain(fit: Estimate, chosen: ForceModel) -> Iterator[str]:
         )
 
 
-def _scatter(fit: Estimate) -> Iterator[str]:
+def _exact(fit: Estimate) -> Iterator[str]:
+    if fit.is_exact and fit.force_std is None:
+        yield (
+            f"the forces lie on the {_shape(fit)} to the last digit, which no measurement does: "
+            "the residuals say nothing about the experiment's uncertainty; give the forces as "
+            "they were measured, or their errors"
+        )
+
+
+def _without_scatter(fit: Estimate) -> Iterator[str]:
     if fit.force_std is None and fit.dof == 0:
         yield (
             f"two forces determine the {_shape(fit)} exactly and leave no measure of scatter: "
             "standard errors are unknown; cut more often, or give force_std"
         )
-    elif _is_exact(fit):
+    elif fit.is_exact and fit.force_std is not None:
         yield (
             f"the forces lie on the {_shape(fit)} to the last digit, which no measurement does: "
-            "the residuals say nothing about the experiment's uncertainty"
+            "the intervals rest on force_std alone"
         )
 
 
 def _outlier(fit: Estimate) -> Iterator[str]:
-    """Leave out each cut in turn, and name the one without which the misfit falls too far.
-
-    By chi^2 of one degree of freedom where standard errors are known, else by that of the others;
-    Bonferroni over cuts. Only the worst, because one bad cut drags the curve from the good ones.
-    """
-    few = fit.force_std is None and fit.dof < FEWEST_OTHERS
-    if fit.dof < 2 or few or _is_exact(fit):
-        return
-    confidence = 1.0 - FALSE_ALARM / fit.force.size
-    all_cuts, others = _left_out(fit)
-    with np.errstate(all="ignore"):
-        fall = np.maximum(all_cuts - others, 0.0)
-        if fit.force_std is not None:
-            limit, deviation = normal_quantile(confidence), np.sqrt(fall)
-        else:
-            least = (LEAST_SCATTER * fit.cuts.weight * fit.force).max() ** 2
-            variance = np.maximum(others / (fit.dof - 1), least)
-            limit = student_quantile(confidence, fit.dof - 1)
-            deviation = np.sqrt(fall / variance)
-    worst = int(np.argmax(deviation))
-    if deviation[worst] > limit:
-        yield (
-            f"cut {worst + 1} (R_w = {1e3 * fit.wire_radius[worst]:.4g} mm, "
-            f"{fit.force[worst]:.4g} N/m) is {deviation[worst]:.1f} standard deviations off the "
-            f"{_shape(fit)} through the others (limit {limit:.1f}): an outlier; repeat that cut"
-        )
-
-
-def _left_out(fit: Estimate) -> tuple[float, Array]:
-    """Return the misfit of all cuts and of all but each one, in the same units."""
-    if fit.profile is not None:
-        return fit.profile.modes[0].misfit, without_each(fit.misfit, fit.profile.toughness)
-    weighted = fit.cuts.weight * fit.residuals
-    total = float(weighted @ weighted)
-    testable = np.maximum(1.0 - fit.leverage, 0.0)
-    fall = np.divide(weighted**2, testable, out=np.zeros_like(weighted), where=testable > 1e-6)
-    return total, np.maximum(total - fall, 0.0)
+    if (bad := outlier(fit)) is not None:
+        yield bad.words(_shape(fit))
 
 
 def _shape(fit: Estimate) -> str:
     return "line" if isinstance(force_model(fit.model), ClosedForm) else "curve"
-
-
-def _is_exact(fit: Estimate) -> bool:
-    least = _ROUNDING if fit.scale is None or fit.force_std is not None else EXACT
-    return fit.dof > 0 and bool(np.max(np.abs(fit.residuals)) <= least * np.max(fit.force))

@@ -37,6 +37,11 @@ __all__ = ["OPEN_ENDS", "Estimate"]
 OPEN_ENDS = ("model", "search")
 """What ends a search but says nothing about the material."""
 
+EXACT = 1e-5
+"""Of the forces; where forces share errors, what is met better is searched no further."""
+
+_ROUNDING = 64.0 * np.finfo(float).eps
+
 _BY_FORCES, _UNKNOWN_ENDS = ("forces", "forces"), ("unknown", "unknown")
 
 
@@ -102,6 +107,18 @@ class Estimate:
     def dof(self) -> int:
         """Degrees of freedom: measurements and other facts less the two unknowns."""
         return self.force.size + self.known.facts - 2
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether more forces than needed are met but for rounding, as no measured ones are."""
+        least = _ROUNDING if self.scale is None or self.force_std is not None else EXACT
+        largest = float(np.max(np.abs(self.residuals)))
+        return self.dof > 0 and largest <= least * float(np.max(self.force))
+
+    @property
+    def has_scatter(self) -> bool:
+        """Whether something tells the forces' scatter, without which no interval means anything."""
+        return self.force_std is not None or (self.dof > 0 and not self.is_exact)
 
     @property
     def toughness_std(self) -> float:

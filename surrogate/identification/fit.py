@@ -12,12 +12,14 @@ from surrogate.basics.checks import LARGEST, Quantity, one_number
 from surrogate.basics.records import html_table, number
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.identification.doubts import fit_warnings
+from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
+from surrogate.identification.friction import WithFriction, with_friction
 from surrogate.identification.open_questions import undecided
 from surrogate.identification.profile_fit import fit_profile
 from surrogate.identification.summary import answer, summary
 from surrogate.inference.inputs import (
+    FRICTION_COEFFICIENT,
     NOTHING_KNOWN,
     Array,
     known,
@@ -124,14 +126,36 @@ class Identification(Estimate):
     """
 
     @property
+    def objections(self) -> tuple[str, ...]:
+        """Why the result should not be used as it stands, in words; empty where it may be."""
+        return tuple(objections(self))
+
+    @property
     def warnings(self) -> tuple[str, ...]:
-        """What makes the result doubtful, in words."""
+        """What makes the result doubtful, in words; the objections first."""
         return tuple(fit_warnings(self))
 
     @property
     def undecided(self) -> tuple[str, ...]:
         """What the forces do not decide, and which further wire would, in words."""
         return tuple(undecided(self))
+
+    def with_friction(self, friction_coefficient: float) -> WithFriction:
+        """Return toughness and wear strength of the same forces with another friction coefficient.
+
+        Parameters
+        ----------
+        friction_coefficient : float
+            xi [-].
+
+        Raises
+        ------
+        InputError
+            If it is negative or no number, or if the shear modulus is not known.
+        DomainError
+            If the model covers no toughness for all of the wires.
+        """
+        return with_friction(self, one_number(FRICTION_COEFFICIENT, friction_coefficient))
 
     def summary(self) -> str:
         """Return the answer, the doubts and what both rest on, in at most 25 lines."""

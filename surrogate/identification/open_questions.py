@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from surrogate.identification.digits import below_digits
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.further_wire import FurtherWire
 from surrogate.inference.profile import Mode, Profile
@@ -29,7 +30,7 @@ def undecided(fit: Estimate) -> Iterator[str]:
     str
         What is not decided, with the numbers; last, the further wire that would tell most.
     """
-    if fit.profile is None:
+    if fit.profile is None or (fit.is_exact and not fit.has_scatter):
         return
     sentences = [
         *_several(fit, fit.profile),
@@ -121,7 +122,9 @@ def _wide(fit: Estimate) -> Iterator[str]:
         ("wear strength", 1e-3, "kPa", fit.wear_strength_interval),
     ):
         if VAGUE * low < high < np.inf and low > 0.0:
+            lowest = "" if below_digits(low, 0.5 * (high - low)) else f"{scale * low:.3g}"
             yield (
-                f"the {name} is only known to be between {scale * low:.3g} and "
-                f"{scale * high:.3g} {unit}"
+                f"the {name} is only known to be "
+                + (f"between {lowest} and" if lowest else "below")
+                + f" {scale * high:.3g} {unit}"
             )

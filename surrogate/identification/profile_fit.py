@@ -83,7 +83,7 @@ def _scaled(misfit: Misfit, dof: int) -> Misfit:
         return replace(misfit, scale=1.0)
     if not dof or not replace(misfit, scale=1.0).shares_errors:
         return misfit
-    scatter = float(np.sqrt(smallest_misfit(misfit) / dof))
+    scatter = float(np.sqrt(smallest_misfit(misfit)[0] / dof))
     return replace(misfit, scale=max(scatter, LEAST_SCATTER * float(misfit.cuts.force.max())))
 
 

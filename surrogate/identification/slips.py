@@ -71,7 +71,7 @@ def slip_in_words(fit: Estimate, acceptable: float) -> str | None:
         scale = None if fit.scale is None else fit.scale * size
         misfit = replace(fit.misfit, cuts=cuts, scale=scale)
         try:
-            again = smallest_misfit(misfit) / size**2
+            again = smallest_misfit(misfit)[0] / size**2
         except WirecutError:
             continue
         if again <= acceptable and again * BETTER <= best:

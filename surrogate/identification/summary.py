@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from textwrap import wrap
 
 import numpy as np
 
-from surrogate.basics.records import UNKNOWN, number
-from surrogate.identification.doubts import fit_warnings
+from surrogate.basics.records import number
+from surrogate.identification.digits import below_digits, rounded
+from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
+from surrogate.identification.friction import forgotten_friction_in_words
 from surrogate.identification.open_questions import undecided
 
 __all__ = [
     "MOST_LINES",
+    "against_use",
     "answer",
     "assumptions",
     "brief",
@@ -35,26 +38,6 @@ SOURCES = {
     "stiffening_exponent": "alpha",
     "sample": "samples",
 }
-
-
-def rounded(value: float, error: float) -> str:
-    """Return a number with as many digits as its error leaves, two of the error itself.
-
-    Examples
-    --------
-    >>> rounded(1.14632, 0.34), rounded(12634.0, 420.0), rounded(1.14632, math.nan)
-    ('1.15', '12630', '1.146')
-    """
-    if not math.isfinite(value):
-        return "any" if value > 0.0 else UNKNOWN
-    if not math.isfinite(error) or not error > 0.0:
-        return number(value)
-    decimals = 1 - math.floor(math.log10(error))
-    if not -6 <= decimals <= 6:
-        return number(value)
-    if decimals <= 0:
-        return f"{round(value, decimals):.0f}"
-    return f"{value:.{decimals}f}"
 
 
 def answer(fit: Estimate) -> str:
@@ -97,7 +80,7 @@ def _quantities(fit: Estimate) -> Iterator[str]:
         ),
     ):
         low, high = (scale * end for end in interval)
-        if _without_scatter(fit):
+        if not fit.has_scatter and "given" not in limits:
             limits = ("unknown", "unknown")
         yield f"{symbol} {_range(scale * value, low, high, limits, several)} {unit}"
 
@@ -110,7 +93,7 @@ def _range(value: float, low: float, high: float, limits: tuple[str, str], sever
         return f"= {number(value)} (given)"
     if "unknown" in limits:
         return f"= {number(value)} (interval unknown)"
-    if not below and low <= 0.0:
+    if (not below and low <= 0.0) or (low < value and below_digits(low, error)):
         return f"< {rounded(high, error)}" if above or math.isfinite(high) else "is undecided:"
     if not above and not math.isfinite(high):
         return f"> {rounded(low, error)}"
@@ -121,7 +104,7 @@ def _range(value: float, low: float, high: float, limits: tuple[str, str], sever
 
 
 def assumptions(fit: Estimate) -> str:
-    """Return what was given and what was assumed, with what the friction would change."""
+    """Return what was given and what was assumed."""
     xi = "friction_coefficient" in fit.assumed
     parts = []
     if "shear_modulus" not in fit.assumed:
@@ -132,14 +115,7 @@ def assumptions(fit: Estimate) -> str:
     )
     alpha = " (assumed)" if "stiffening_exponent" in fit.assumed else ""
     parts.append(f"alpha = {number(fit.stiffening_exponent)}{_plus(fit.stiffening_std)}{alpha}")
-    gamma, tau = fit.friction_sensitivity
-    sentence = f"With {', '.join(parts)}"
-    if xi and math.isfinite(gamma) and "shear_modulus" not in fit.assumed:
-        sentence += (
-            f"; friction of xi = 0.1 would change Gamma_o by {0.1 * gamma:+.2g} J/m2 and tau_w by "
-            f"{1e-4 * tau:+.2g} kPa"
-        )
-    return f"{sentence}."
+    return f"With {', '.join(parts)}."
 
 
 def _plus(std: float) -> str:
@@ -153,22 +129,34 @@ def budget(fit: Estimate) -> str:
         for name, (gamma, tau) in fit.contributions.items()
         if math.isfinite(gamma)
     ]
-    if not parts or fit.at_limit or _without_scatter(fit):
+    if not parts or fit.at_limit or not fit.has_scatter:
         return ""
     return f"Standard errors come from: {'; '.join(parts)}."
 
 
-def _without_scatter(fit: Estimate) -> bool:
-    """Return whether the forces lie on a line but for rounding, so that no error is known."""
-    return fit.force_std is None and fit.toughness_std <= 1e-12 * abs(fit.toughness)
+def against_use(sentences: Iterable[str]) -> list[str]:
+    """Return what is printed before an answer that should not be used.
+
+    Examples
+    --------
+    >>> against_use(["the toughness is negative"])
+    ['Do not use the numbers below: the toughness is negative.']
+    """
+    return [f"Do not use the numbers below: {sentence}." for sentence in sentences]
 
 
 def summary(fit: Estimate) -> str:
-    """Return the answer, then doubts, then what it rests on, in at most 25 lines."""
-    remarks = [f"Warning: {sentence}." for sentence in fit_warnings(fit)]
+    """Return the answer, then doubts, then what it rests on, in at most 25 lines.
+
+    What says that the answer should not be used comes before it.
+    """
+    against = list(objections(fit))
+    remarks = [f"Warning: {s}." for s in fit_warnings(fit) if s not in against]
     remarks += [f"Undecided: {sentence}." for sentence in undecided(fit)]
     return brief(
-        [f"{answer(fit)}.", *remarks], rests_on(fit), "fit.warnings and fit.undecided tell"
+        [*against_use(against), f"{answer(fit)}.", *remarks],
+        rests_on(fit),
+        "fit.warnings and fit.undecided tell",
     )
 
 
@@ -180,7 +168,8 @@ def is_answer(sentence: str) -> bool:
 def rests_on(fit: Estimate) -> list[str]:
     """Return sentences on the scatter, what was given or assumed, and the sources of error."""
     scatter = "" if fit.scatter is None else f"Scatter of a cut: {fit.scatter.words}."
-    return [sentence for sentence in (scatter, assumptions(fit), budget(fit)) if sentence]
+    sentences = (scatter, assumptions(fit), forgotten_friction_in_words(fit), budget(fit))
+    return [sentence for sentence in sentences if sentence]
 
 
 def brief(first: list[str], last: list[str], where: str, most: int = MOST_LINES) -> str:

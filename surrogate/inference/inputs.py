@@ -246,9 +246,9 @@ def material_of(
     values = {"friction_coefficient": friction, "stiffening_exponent": exponent}
     assumed = tuple(name for name, value in values.items() if value is None)
     xi = 0.0 if friction is None else friction
-    alpha = DEFAULT_STIFFENING if exponent is None else exponent
-    if isinstance(alpha, (int, float)) and alpha < 0.0:
-        alpha = -alpha
+    alpha = (
+        DEFAULT_STIFFENING if exponent is None else one_number(checks.STIFFENING_EXPONENT, exponent)
+    )
     if modulus is not None:
         return modulus, (xi, alpha), assumed
     if model not in WITHOUT_MODULUS or xi != 0.0:

@@ -181,8 +181,8 @@ def profile_misfit(misfit: Misfit, threshold: Callable[[float], float]) -> Profi
     )
 
 
-def smallest_misfit(misfit: Misfit) -> float:
-    """Return the lowest misfit of the search, without its other minima.
+def smallest_misfit(misfit: Misfit) -> tuple[float, float, float]:
+    """Return the lowest misfit of the search, its Gamma_o [J/m2] and tau_w [Pa], no other minima.
 
     Raises
     ------
@@ -195,7 +195,7 @@ def smallest_misfit(misfit: Misfit) -> float:
 
 
 def without_each(misfit: Misfit, toughness: Array) -> Array:
-    """Return the smallest misfits with each cut left out in turn, near toughnesses of a scan.
+    """Return the best fits with each cut left out in turn, near toughnesses of a scan.
 
     Parameters
     ----------
@@ -206,8 +206,8 @@ def without_each(misfit: Misfit, toughness: Array) -> Array:
 
     Returns
     -------
-    ndarray, shape (n,)
-        As the misfit.
+    ndarray, shape (3, n)
+        The misfit, Gamma_o [J/m2] and tau_w [Pa].
     """
     weight = misfit.cuts.weight
     left_out = (np.where(np.arange(weight.size) == i, 0.0, weight) for i in range(weight.size))
@@ -216,15 +216,18 @@ def without_each(misfit: Misfit, toughness: Array) -> Array:
             _lowest(replace(misfit, cuts=replace(misfit.cuts, weights=w)), toughness)
             for w in left_out
         ]
-    )
+    ).T
 
 
-def _lowest(misfit: Misfit, gamma: Array) -> float:
-    smallest = np.inf
+def _lowest(misfit: Misfit, gamma: Array) -> tuple[float, float, float]:
+    """Return the smallest misfit near toughnesses of a scan, its toughness and wear strength."""
+    smallest = np.inf, np.nan, np.nan
     for _ in range(ZOOMS):
-        heights = misfit.at(gamma).misfit
-        best = int(np.argmin(heights))
-        smallest = min(smallest, float(heights[best]))
+        values = misfit.at(gamma)
+        best = int(np.argmin(values.misfit))
+        if values.misfit[best] < smallest[0]:
+            here = values.misfit[best], gamma[best], values.wear_strength[best]
+            smallest = float(here[0]), float(here[1]), float(here[2])
         gamma = np.linspace(gamma[max(best - 1, 0)], gamma[min(best + 1, gamma.size - 1)], 17)
     return smallest
 

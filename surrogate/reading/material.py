@@ -93,7 +93,8 @@ def read_material(path: str | PathLike[str]) -> Material:
 
     Keys are ``schema`` ("wirecut-material-1"), ``name`` and ``source`` (text), and any of
     ``shear_modulus_<unit>``, ``pure_shear_toughness_<unit>``, ``work_of_fracture_<unit>``,
-    each with ``..._std_<unit>``, ``friction_coefficient`` and ``stiffening_exponent``.
+    each with ``..._std_<unit>``, ``friction_coefficient`` and ``stiffening_exponent``, whose sign
+    plays no part.
 
     Parameters
     ----------
@@ -133,6 +134,8 @@ def read_material(path: str | PathLike[str]) -> Material:
         if quantity in properties:
             raise InputError(f"{file}, key ({key}) gives {quantity} again; keep one of them.")
         number = parse_number(value, unit) if isinstance(value, _Literal) else None
+        if quantity == "stiffening_exponent" and number is not None:
+            number = abs(number)  # in plane strain alpha and -alpha are the same solid
         if number is None or not 0.0 <= number < np.inf:
             raise InputError(
                 f"{file}, key ({key}): {value!r:.40} is not a number of 0 or more; "

@@ -29,8 +29,8 @@ def cuts(tmp_path):
     return file
 
 
-def run(cuts, options, capsys):
-    assert main(shlex.split(f"identify {cuts} --shear-modulus 685Pa {options}")) == 0
+def run(cuts, options, capsys, code=0):
+    assert main(shlex.split(f"identify {cuts} --shear-modulus 685Pa {options}")) == code
     return capsys.readouterr().out
 
 
@@ -167,8 +167,8 @@ def test_the_answer_comes_first_in_at_most_25_lines(cuts, capsys, bump):
 
 
 def test_what_is_stated_of_the_modulus_reaches_the_fit(cuts, capsys):
-    def record(options):
-        assert main(shlex.split(f"identify {cuts} {options} --json")) == 0
+    def record(options, code=0):
+        assert main(shlex.split(f"identify {cuts} {options} --json")) == code
         return json.loads(capsys.readouterr().out)
 
     stated = record("--shear-modulus 0.685+-0.03kPa")
@@ -176,14 +176,50 @@ def test_what_is_stated_of_the_modulus_reaches_the_fit(cuts, capsys):
     assert stated["contributions"]["shear_modulus"][0] > 0.0
     assert record("--youngs-modulus 2055Pa")["shear_modulus"] == pytest.approx(685.0)
     assert record("--model eq13")["assumed"][0] == "shear_modulus"
-    assert record("--model eq13 --relative-error 5%")["reduced_chi_squared"] > 0.0
+    poor = record("--model eq13 --relative-error 5%", code=3)
+    assert "chi^2/dof" in poor["objections"][0]
+    assert poor["warnings"][0] == poor["objections"][0]
     assert main(shlex.split(f"identify {cuts} --model eq13 --friction-coefficient 0.1")) == 2
     assert "shear modulus is missing" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("radii", "forces", "options", "words"),
+    [
+        ((100, 200, 400), (4.7, 8.1, 13.9), "--shear-modulus 30kPa", "mm given as m"),
+        ((0.1, 0.2, 0.4), (4.7, 12.0, 13.9), "--relative-error 1%", "chi^2/dof"),
+        ((0.1, 0.2, 0.4), (14.0, 8.0, 2.0), "", "above the smallest force"),
+        ((0.1, 0.2, 0.4), (14.0, 8.1, 2.0), "--relative-error 5%", "is negative"),
+        ((0.1, 0.2, 0.4), (5.0, 5.0, 5.0), "", "to the last digit"),
+    ],
+)
+def test_what_forbids_the_numbers_comes_before_them(
+    tmp_path, capsys, radii, forces, options, words
+):
+    file = tmp_path / "cuts.csv"
+    rows = [f"{r},{f}\n" for r, f in zip(radii, forces, strict=True)]
+    file.write_text("wire_radius_mm,force_per_thickness_N_per_m\n" + "".join(rows))
+    assert main(shlex.split(f"identify {file} --model eq13 {options}")) == 3
+    printed = " ".join(capsys.readouterr().out.split())
+    assert printed.startswith("Do not use the numbers below: ")
+    assert words in printed[: printed.index(" Gamma_o = ")]
+
+
+def test_an_end_below_the_digits_is_an_upper_limit():
+    radius = np.array([0.125e-3, 0.21e-3, 0.275e-3, 0.39e-3, 0.47e-3])
+    fit = surrogate.identify(radius, 1.6 + 31e3 * radius, MODULUS)
+    low, high = fit.toughness_interval
+    assert 0.0 < low < 1e-3 * high
+    assert f"Gamma_o < {high:.1f} J/m2" in fit.summary()
+    assert "0.0 to" not in fit.summary()
+    assert not any("e-" in sentence for sentence in fit.undecided[:-1])
+
+
 def test_a_toughness_far_above_pure_shear_is_doubted(cuts, capsys):
-    printed = run(cuts, "--model eq13 --pure-shear-toughness 0.001J/m2 --relative-error 1%", capsys)
-    assert "far above the toughness of pure shear" in " ".join(printed.split())
+    options = "--model eq13 --pure-shear-toughness 0.001J/m2 --relative-error 1%"
+    printed = " ".join(run(cuts, options, capsys, code=3).split())
+    assert re.match("Do not use the numbers below: .* far above the toughness of pure", printed)
+    assert printed.index("Do not use") < printed.index("Gamma_o = ")
 
 
 def test_wires_beyond_the_range_are_printed_and_drawn(tmp_path, capsys):

@@ -90,7 +90,7 @@ def test_what_is_for_records_is_no_option_of_a_table(run, tmp_path):
 
 
 def test_a_number_that_is_open_is_decided_by_the_option(run, tmp_path):
-    (tmp_path / "cuts.csv").write_text("d_mm;F/T_N_per_m\n1,250;2,850\n1,500;3,100\n1,750;3,350\n")
+    (tmp_path / "cuts.csv").write_text("d_mm;F/T_N_per_m\n1,250;2,850\n1,500;3,110\n1,750;3,350\n")
     code, _, err = run("identify", "cuts.csv")
     assert (code, "--decimal" in err) == (2, True)
     assert run("identify", "cuts.csv", "--decimal", ",")[0] == 0

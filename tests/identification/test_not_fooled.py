@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from torture.coverage import drawn, outcome
 
-from surrogate import InputError, Scene, cutting_force, identify
+from surrogate import InputError, Scene, contact_functions, cutting_force, identify
+from surrogate.identification.outlier import outlier
 
 RADII = np.array([0.125e-3, 0.210e-3, 0.275e-3, 0.390e-3, 0.470e-3])
 NOISE = np.array([0.03, -0.02, 0.01, 0.02, -0.03])
@@ -52,7 +53,33 @@ def test_exact_forces_far_out_of_range_give_back_the_material(g):
     assert low <= toughness <= high
 
 
+def test_a_modulus_far_above_the_range_is_told_and_does_not_move_the_answer():
+    """Where A hardly changes over the wires any modulus gives the line's answer, less its slope."""
+    radius, force = [1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2]
+    low, high = identify(radius, force, model="eq13").toughness_interval
+    inside, far = (identify(radius, force, mu) for mu in (3e4, 1e7))
+    assert inside.toughness < far.toughness < high
+    assert low < far.toughness
+    assert far.warnings[0].startswith("4 of 4 cuts (R_w = 0.1, 0.2, 0.4, 0.5 mm) are at g = ")
+    assert "xi = 0.1 does not fit the forces" in far.summary()  # it alone would need 10 times them
+
+
 # What an interval contains
+
+
+@pytest.mark.parametrize("model", ["table", "eq13"])
+def test_other_friction_is_that_of_another_identification(model):
+    fit = identify(RADII, NOISY, 3e3, model=model, force_std=0.2)
+    other = fit.with_friction(0.2)
+    told = identify(RADII, NOISY, 3e3, model=model, force_std=0.2, friction_coefficient=0.2)
+    nodes = 10.0 ** (1 / 48) / 8**4  # spacing of the scan after four zooms by 8
+    assert other.toughness == pytest.approx(told.toughness, rel=nodes)
+    assert other.wear_strength == pytest.approx(told.wear_strength, rel=nodes)
+    assert other.fits
+    assert "Friction was taken to be 0: with xi = 0.1, Gamma_o = " in fit.summary()
+    assert "Friction was taken" not in told.summary()
+    with pytest.raises(InputError, match="friction_coefficient must be"):
+        fit.with_friction(-0.1)
 
 
 def test_every_source_of_error_widens_the_intervals_and_is_told():
@@ -135,8 +162,9 @@ def test_forces_that_fall_with_the_radius_are_doubted_before_any_number():
     fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [9.0, 7.0, 5.0, 4.0], 685.0)
     assert fit.wear_strength == 0.0
     assert np.isnan(fit.toughness_std)
-    assert any("explains nothing" in sentence for sentence in fit.warnings[:2])
-    assert any("above the smallest force" in sentence for sentence in fit.warnings)
+    assert "the forces fall with the radius as the curve cannot" in fit.objections[0]
+    assert any("above the smallest force" in sentence for sentence in fit.objections)
+    assert str(fit).startswith("Do not use the numbers below: the forces fall")
     line = identify([1e-4, 2e-4, 4e-4, 5e-4], [9.0, 7.0, 5.0, 4.0], 685.0, model="eq13")
     assert not any("standard deviations off" in sentence for sentence in line.warnings)
 
@@ -154,7 +182,21 @@ def test_an_outlier_is_named_by_a_curve_too(std):
     force = forces(radius) + 0.1 * np.random.default_rng(2).standard_normal(10)
     force[3] += 2.0
     fit = identify(radius, force, MODULUS, force_std=std)
-    assert any(sentence.startswith("cut 4 ") for sentence in fit.warnings)
+    told = next(sentence for sentence in fit.warnings if sentence.startswith("cut 4 "))
+    others = np.arange(10) != 3
+    less = identify(radius[others], force[others], MODULUS, force_std=std)
+    assert f"Without it Gamma_o = {less.toughness:.3g} J/m2" in told
+    assert f"tau_w = {1e-3 * less.wear_strength:.3g} kPa" in told
+
+
+def test_a_line_without_a_cut_is_that_of_the_others():
+    force = forces(np.append(RADII, 6e-4)) + np.array([0.0, 0.1, -0.1, 3.0, 0.1, 0.0])
+    fit = identify(np.append(RADII, 6e-4), force, model="eq13")
+    bad, others = outlier(fit), np.arange(6) != 3
+    less = identify(np.append(RADII, 6e-4)[others], force[others], model="eq13")
+    assert bad.cut == 3
+    assert bad.toughness == pytest.approx(less.toughness, rel=1e-9)
+    assert bad.wear_strength == pytest.approx(less.wear_strength, rel=1e-9)
 
 
 # What may be left out, and what a result is
@@ -164,6 +206,17 @@ def test_a_negative_exponent_is_the_same_solid():
     """l_1 = 1/l_2 in plane strain, so that alpha and -alpha give the same energy."""
     one, other = (identify(RADII, NOISY, MODULUS, stiffening_exponent=a) for a in (3.0, -3.0))
     assert (one.toughness, one.wear_strength) == (other.toughness, other.wear_strength)
+    scenes = [Scene(MODULUS, 2.0, RADII, 0.1, 7e3, alpha) for alpha in (3.0, -3.0)]
+    assert scenes[1].stiffening_exponent == 3.0
+    np.testing.assert_array_equal(*(cutting_force(scene).total for scene in scenes))
+    many = Scene(MODULUS, 2.0, 1e-4, stiffening_exponent=[-3.0, 2.0, -4])
+    np.testing.assert_array_equal(many.stiffening_exponent, [3.0, 2.0, 4.0])
+    for model in ("table", "eq9"):
+        arcs = [contact_functions(3.0, alpha, model).arc for alpha in (3.0, -3.0)]
+        assert arcs[0] == arcs[1]
+    for bad in (0.0, -np.inf, np.nan, [-2.0, 0.0]):
+        with pytest.raises(InputError, match="finite and positive"):
+            Scene(MODULUS, 2.0, 1e-4, stiffening_exponent=bad)
     stretch, (plus, minus) = np.linspace(0.5, 3.0, 20), (3.0, -3.0)
     energy = [(stretch**a + stretch**-a - 2.0) / a**2 for a in (plus, minus)]
     np.testing.assert_allclose(*energy, rtol=1e-15)

@@ -232,3 +232,9 @@ def test_a_unit_alone_is_answered_with_its_number():
 def test_number_takes_no_unit():
     with pytest.raises(InputError, match="no unit"):
         parse_quantity("0.1Pa", NUMBER)
+
+
+def test_the_sign_of_the_exponent_plays_no_part(tmp_path):
+    file = tmp_path / "gel.json"
+    file.write_text('{"schema": "wirecut-material-1", "stiffening_exponent": -3.5}')
+    assert read_material(file).stiffening_exponent == 3.5

@@ -189,9 +189,9 @@ def _warned(part, one, fit):
     """Hold every warning that has a plain condition beside that condition."""
     said = " ".join(fit.warnings)
     conditions = {
-        "the toughness is negative": fit.toughness < 0.0,
-        "the wear strength is negative": fit.wear_strength < 0.0,
-        "are too alike to tell": fit.condition > 30.0,
+        "the toughness is negative": fit.toughness_interval[1] < 0.0,
+        "the wear strength is negative": fit.wear_strength_interval[1] < 0.0,
+        "and can hardly be told": fit.condition > 30.0,
         "different radii": np.unique(one.radius).size < 3,
         "leave no measure of scatter": one.radius.size < 3 and not one.known,
         "the force per thickness (": one.force.min() < 1e-3 or one.force.max() > 1e6,

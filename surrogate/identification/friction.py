@@ -1,0 +1,109 @@
+"""What friction that nobody gave would make of an identification."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from surrogate.errors import InputError
+from surrogate.identification.digits import rounded
+from surrogate.identification.estimate import Estimate
+from surrogate.inference.line_fit import linear_form, solve_least_squares
+from surrogate.inference.profile import smallest_misfit
+
+__all__ = ["SUPPOSED", "WithFriction", "forgotten_friction_in_words", "with_friction"]
+
+SUPPOSED = (0.1, 0.3)
+"""Friction coefficients for which it is said what they would change."""
+
+
+@dataclass(frozen=True)
+class WithFriction:
+    """The same forces with another friction coefficient.
+
+    Parameters
+    ----------
+    friction_coefficient : float
+        xi [-].
+    toughness, wear_strength : float
+        Gamma_o [J/m2] and tau_w [Pa].
+    fits : bool
+        Whether the forces are met as well as the interval without it asks for.
+    """
+
+    friction_coefficient: float
+    toughness: float
+    wear_strength: float
+    fits: bool
+
+
+def with_friction(fit: Estimate, friction: float) -> WithFriction:
+    """Return what the forces of an identification say with another friction coefficient.
+
+    Raises
+    ------
+    DomainError
+        If the model covers no toughness for all of the wires.
+    InputError
+        If the shear modulus is not known.
+
+    Examples
+    --------
+    With Eq. (13), (1 + xi) Gamma_o and tau_w + xi mu stay as they are:
+
+    >>> from surrogate.identification.fit import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 685.0, model="eq13")
+    >>> other = with_friction(fit, 0.1)
+    >>> print(f"{other.toughness * 1.1:.4f} {other.wear_strength + 68.5:.1f}, {other.fits}")
+    1.6250 7750.0, True
+    """
+    if "shear_modulus" in fit.assumed and friction:
+        raise InputError(
+            "friction needs the shear modulus, which was not given; give it to identify."
+        )
+    if fit.profile is None:
+        return _on_a_line(fit, friction)
+    cuts = replace(fit.cuts, friction_coefficient=friction)
+    misfit, toughness, wear = smallest_misfit(replace(fit.misfit, cuts=cuts))
+    fits = not misfit > fit.profile.threshold
+    return WithFriction(friction, toughness, wear, fits)
+
+
+def _on_a_line(fit: Estimate, friction: float) -> WithFriction:
+    columns, offset = linear_form(fit.model, fit.wire_radius, fit.shear_modulus, friction)
+    weight = fit.cuts.weight
+    line = solve_least_squares(columns * weight[:, np.newaxis], (fit.force - offset) * weight)
+    toughness, wear = line.estimate.tolist()
+    return WithFriction(friction, toughness, wear, wear >= 0.0)
+
+
+def forgotten_friction_in_words(fit: Estimate) -> str:
+    """Return what friction would change where nobody gave it; empty where it was, or plays no part.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 30e3, model="eq13")
+    >>> print(forgotten_friction_in_words(fit))
+    Friction was taken to be 0: with xi = 0.1, Gamma_o = 1.48 J/m2 and tau_w = 4.75 kPa; xi = 0.3 \
+does not fit the forces.
+    """
+    assumed = fit.assumed
+    if "friction_coefficient" not in assumed or "shear_modulus" in assumed or not fit.has_scatter:
+        return ""
+    parts = [_in_words(fit, with_friction(fit, friction)) for friction in SUPPOSED]
+    return f"Friction was taken to be 0: {'; '.join(parts)}."
+
+
+def _in_words(fit: Estimate, other: WithFriction) -> str:
+    if not other.fits:
+        return f"xi = {other.friction_coefficient:g} does not fit the forces"
+    gamma, tau = (
+        rounded(scale * value, 0.5 * scale * (high - low))
+        for scale, value, (low, high) in (
+            (1.0, other.toughness, fit.toughness_interval),
+            (1e-3, other.wear_strength, fit.wear_strength_interval),
+        )
+    )
+    return f"with xi = {other.friction_coefficient:g}, Gamma_o = {gamma} J/m2 and tau_w = {tau} kPa"
