@@ -28,10 +28,11 @@ __all__ = [
 BLUNT = "blunt"
 
 #: How the settings of a level are changed at each attempt: a failed configuration is tried again
-#: with the next one when the campaign is run again.
+#: with the next one when the campaign is run again. The second one keeps the notch, on which
+#: A* and B* depend where the tip touches.
 STRATEGIES: tuple[Callable[[Settings], Settings], ...] = (
     lambda settings: settings,
-    lambda settings: replace(settings.refined(1.25), notch_radius=settings.notch_radius / 2),
+    lambda settings: settings.refined(1.25),
     lambda settings: replace(settings.refined(1.5), notch_radius=settings.notch_radius / 4),
 )
 

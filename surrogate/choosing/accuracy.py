@@ -24,6 +24,10 @@ __all__ = ["contact_bounds", "contact_std", "one_model"]
 Array = NDArray[np.float64]
 
 
+DEFAULT_RTOL = 0.02
+"""What will do where nobody says otherwise, and some model is as exact."""
+
+
 def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array] | None:
     """Return the measured bounds of the relative errors of A and B at points.
 
@@ -97,15 +101,16 @@ def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None
     return arc, load
 
 
-def one_model(name: object, rtol: object) -> ForceModel:
+def one_model(name: object, rtol: object = None) -> ForceModel:
     """Return the model of a name; for "auto" the cheapest one that meets rtol everywhere.
 
     Parameters
     ----------
     name : str
         Name of a model, or "auto".
-    rtol : float
-        Relative error of A and B that will do with "auto" [-].
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where a model is as
+        exact, else that of the most exact one.
 
     Returns
     -------
@@ -126,7 +131,7 @@ def one_model(name: object, rtol: object) -> ForceModel:
     >>> one_model("eq13", 0.02).equation, one_model("auto", 5.0).equation
     ('Eq. (13)', 'Eq. (13)')
     """
-    tolerance = one_number(RTOL, rtol)
+    tolerance = DEFAULT_RTOL if rtol is None else one_number(RTOL, rtol)
     if not is_auto(name):
         return force_model(name)
     from surrogate.choosing.candidates import available
@@ -138,6 +143,8 @@ def one_model(name: object, rtol: object) -> ForceModel:
         if error <= tolerance:
             return model
     best = min(range(len(models)), key=errors.__getitem__)
+    if rtol is None:
+        return models[best]
     raise AccuracyError(
         f"rtol must be met by a model all over its domain, but rtol = {tolerance:g} is not: the "
         f"best is {models[best].name!r} with an error of up to {errors[best]:.2g}; give "

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
+from surrogate.contact.base import ForceModel
 from surrogate.identification.fit import Identification, identify
 from surrogate.inference.inputs import NOTHING_KNOWN
 from surrogate.reading.material import Material
@@ -85,7 +86,7 @@ def _remark(one: Mapping[str, Any]) -> str:
     return {None: UNKNOWN, True: "possible", False: "excluded"}[one["admitted"]]
 
 
-def _again(fit: Identification, model: str, **known: Any) -> Identification:
+def _again(fit: Identification, model: str | ForceModel, **known: Any) -> Identification:
     cuts = fit.cuts
     return identify(
         cuts.wire_radius,
@@ -116,7 +117,7 @@ def _row(words: str, other: Identification, free: Identification | None) -> dict
         admitted = misfit <= free.profile.threshold
     return {
         "assumption": words,
-        "model": other.model,
+        "model": str(other.model),
         "toughness": other.toughness,
         "toughness_interval": other.toughness_interval,
         "wear_strength": other.wear_strength,

@@ -118,7 +118,8 @@ def identification_record(fit: Identification, material: Material) -> Record:
     return {
         "answer": answer(fit),
         "rests_on": rests_on(fit),
-        "model": fit.model,
+        "model": str(fit.model),
+        "law": fit.law,
         "friction_coefficient": fit.friction_coefficient,
         "shear_modulus": fit.shear_modulus,
         "shear_modulus_std": fit.shear_modulus_std or None,

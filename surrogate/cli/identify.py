@@ -13,6 +13,7 @@ from surrogate.basics.files import check_outputs, model_file
 from surrogate.cli.common import (
     DOUBTED,
     add_friction_and_stiffening,
+    add_law_option,
     add_model_option,
     print_record,
     quantity,
@@ -132,6 +133,8 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         help="energy density at tensile failure W_f, to compare with",
     )
     add_model_option(command)
+    command.set_defaults(rtol=None)
+    add_law_option(command)
     add(
         "--confidence",
         type=share,
@@ -201,6 +204,7 @@ def run_identify(options: argparse.Namespace) -> int:
         sample=measurements.samples,
         model=options.model,
         rtol=options.rtol,
+        law=options.law,
         confidence=options.confidence,
         **facts(options),
     )

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import LARGEST, Quantity
 from surrogate.choosing.by_name import force_model
+from surrogate.contact.base import ForceModel
 from surrogate.cutting.transition_radius import (
     transition_radius,
     wear_transition_radius,
@@ -64,7 +65,7 @@ class Estimate:
     shear_modulus: float
     friction_coefficient: float
     stiffening_exponent: float
-    model: str
+    model: str | ForceModel
     confidence: float
     known: Known = NOTHING_KNOWN
     profile: Profile | None = None
@@ -97,6 +98,11 @@ class Estimate:
             0.0 if self.scatter is None else self.scatter.sample_ratio,
             None if self.scatter is None else self.scatter.weights,
         )
+
+    @property
+    def law(self) -> str:
+        """The law of dissipation that the estimates belong to."""
+        return force_model(self.model).law
 
     @property
     def misfit(self) -> Misfit:

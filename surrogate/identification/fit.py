@@ -12,6 +12,8 @@ from surrogate.basics.checks import LARGEST, Quantity, one_number
 from surrogate.basics.records import html_table, number
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.base import ForceModel
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import WithFriction, with_friction
@@ -188,14 +190,15 @@ def identify(
     shear_modulus_std: float = 0.0,
     friction_std: float = 0.0,
     stiffening_std: float = 0.0,
-    model: str = AUTO,
-    rtol: float = 0.02,
+    model: str | ForceModel = AUTO,
+    rtol: float | None = None,
     confidence: float = 0.95,
     toughness_max: float | None = None,
     wear_strength: float | None = None,
     toughness_prior: tuple[float, float] | None = None,
     wear_strength_prior: tuple[float, float] | None = None,
     further_radii: tuple[float, float] | None = None,
+    law: str = PROJECTED,
 ) -> Identification:
     """Identify cleavage toughness and wear strength from steady wire-cutting forces.
 
@@ -249,9 +252,10 @@ def identify(
         Any force model that has wear, see `models`. "auto" is one model for all toughnesses: the
         cheapest whose A and B meet `rtol` all over its domain. "eq13", "low-toughness" (Eq. 12)
         and "friction-free" (Eq. 15) are linear in both unknowns.
-    rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-]. What that of the model may do to
-        the estimates is said by `model_error` and is part of the intervals.
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where a model is as
+        exact, else that of the most exact one. What it may do to the estimates is said by
+        `model_error` and is part of the intervals.
     confidence : float, default 0.95
         Probability that each interval states, of each estimate by itself [-].
     toughness_max : float, optional
@@ -266,6 +270,9 @@ def identify(
         Smallest and largest radius of a further wire that you could cut with [m]; by default from
         a fifth of the thinnest to five times the thickest of the wires, but from 20 um to 2 mm
         across as far as theirs allow.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`. A wear
+        strength that was identified by one law does not belong into the other.
 
     Returns
     -------
@@ -332,7 +339,8 @@ def identify(
     >>> fit.model, len(fit.profile.modes) > 1
     ('table', True)
     """
-    chosen = one_model(model, rtol).name
+    law_model = one_model(of_law(model, law), rtol)
+    chosen = law_model.name if law_model.law == PROJECTED else law_model
     given = known(
         toughness_max,
         wear_strength,
@@ -404,7 +412,7 @@ def _html(fit: Identification) -> str:
         return f" ({100.0 * fit.confidence:.3g} %: {ends[0]} to {ends[1]})"
 
     rows = [
-        ("model", fit.model, ""),
+        ("model", str(fit.model), ""),
         (
             "cleavage toughness",
             number(fit.toughness) + interval(*fit.toughness_interval, 1.0),

@@ -10,6 +10,7 @@ import numpy as np
 
 from surrogate.basics.checks import one_number, shown
 from surrogate.choosing.by_name import force_model
+from surrogate.contact.base import ForceModel
 from surrogate.errors import InputError
 from surrogate.identification.further_wire import further_wire, range_of_wires
 from surrogate.inference.inputs import WIRE_RADIUS, Array, Cuts, Known
@@ -25,7 +26,11 @@ LEAST_SCATTER = 1e-4
 
 
 def fit_profile(
-    cuts: Cuts, model: str, known: Known, confidence: float, further_radii: object = None
+    cuts: Cuts,
+    model: str | ForceModel,
+    known: Known,
+    confidence: float,
+    further_radii: object = None,
 ) -> dict[str, Any]:
     """Return what the profiled misfit says, by the names of an `Identification`.
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics import checks
 from surrogate.basics.checks import Quantity, one_number, shown
+from surrogate.contact.base import ForceModel
 from surrogate.errors import InputError
 
 __all__ = [
@@ -226,7 +227,7 @@ def stated_errors(
 
 
 def material_of(
-    model: str, modulus: float | None, friction: float | None, exponent: float | None
+    model: str | ForceModel, modulus: float | None, friction: float | None, exponent: float | None
 ) -> tuple[float, tuple[float, float], tuple[str, ...]]:
     """Return mu, (xi, |alpha|), and the names of those that are assumed.
 

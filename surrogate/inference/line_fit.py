@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.choosing.by_name import force_model
+from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import InputError
 from surrogate.inference.inputs import Cuts
@@ -146,7 +147,7 @@ def correlation_of(covariance: Array) -> float:
     return float(covariance[0, 1]) / scale if scale > 0.0 else np.nan
 
 
-def is_linear(model: str) -> bool:
+def is_linear(model: str | ForceModel) -> bool:
     """Return whether the force of a model is linear in toughness and wear strength.
 
     Examples
@@ -159,7 +160,7 @@ def is_linear(model: str) -> bool:
 
 
 def linear_form(
-    model: str, radius: Array, shear_modulus: float, friction: float
+    model: str | ForceModel, radius: Array, shear_modulus: float, friction: float
 ) -> tuple[Array, Array]:
     """Return columns and offset with F_ss/T = offset + columns @ (toughness, wear_strength).
 
@@ -186,7 +187,7 @@ def linear_form(
     return columns, chosen.load_2 * (friction * shear_modulus * radius)
 
 
-def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
+def fit_line(cuts: Cuts, model: str | ForceModel) -> dict[str, Any]:
     """Return what the fit of a straight line says, by the names of an `Identification`.
 
     Raises
@@ -237,7 +238,9 @@ def fit_line(cuts: Cuts, model: str) -> dict[str, Any]:
     }
 
 
-def _friction_sensitivity(cuts: Cuts, model: str, estimate: Array) -> tuple[float, float]:
+def _friction_sensitivity(
+    cuts: Cuts, model: str | ForceModel, estimate: Array
+) -> tuple[float, float]:
     """Return d(estimates)/dxi: (1 + c xi) Gamma_o and tau_w + d xi mu stay as they are."""
     chosen = force_model(model)
     assert isinstance(chosen, ClosedForm)
@@ -253,7 +256,9 @@ def _scale(cuts: Cuts, misfit: float, dof: int) -> float:
     return float(np.sqrt(misfit / dof)) if dof else np.nan
 
 
-def _factors(cuts: Cuts, model: str, estimate: Array, scale: float) -> dict[str, Array]:
+def _factors(
+    cuts: Cuts, model: str | ForceModel, estimate: Array, scale: float
+) -> dict[str, Array]:
     """Return what the errors that forces share do to the weighted forces, in units of the scale."""
     chosen = force_model(model)
     if not isinstance(chosen, ClosedForm) or not scale > 0.0:
