@@ -63,7 +63,10 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
             "slip_arc_error": errors[3] / best[3],
             "slip_load_error": errors[4] / best[4],
             **_notch_slopes(design, one, values),
-            "truncation_error": record.truncation_error,
+            # of the values at the target, for which it grows as the root of g
+            "truncation_error": round(
+                record.truncation_error * np.sqrt(1.0 / _off(one, record)), 12
+            ),
             "force_mismatch": record.force_mismatch,
             "support_spread": record.support_spread if reached else np.nan,
             "row": index[chosen],
@@ -71,6 +74,12 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
         reason = _doubt(point, record) if reached else record.outcome.meaning
         points.append({**point, "use": not reason, "reason": reason})
     return {name: np.array([point[name] for point in points]) for name in POINT_COLUMNS}
+
+
+def _off(one: Configuration, record: Record) -> float:
+    """Return J over what was wanted; 1 where nothing was reached."""
+    ratio = record.energy_release_rate / one.target
+    return float(ratio) if np.isfinite(ratio) else 1.0
 
 
 def _notch_slopes(
