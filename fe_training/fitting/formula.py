@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +11,7 @@ from scipy.optimize import least_squares
 from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
 from surrogate.contact.coordinates import SLIP_QUANTITIES, log_touch
-from surrogate.contact.formula import arc_formula, distance_formula, load_formula
+from surrogate.contact.formula import FORMULAS, arc_formula, distance_formula, load_formula
 
 __all__ = ["eq9_fits", "fit_blend"]
 
@@ -22,8 +21,8 @@ _START = {
     "arc": (0.01, 2.0, -3.0, 0.33, 3.3, 1.0),
     "normal_load": (0.6, -2.3, 1.3, 1.2, 1.4, -0.5),
     "distance": (0.6, -0.6, 1.75, 3.0),
-    "slip_arc": (0.6, -0.5, -1.0, 0.0, 1.0, -1.0),
-    "slip_load": (0.6, -1.5, 1.0, 0.5, 1.9, -1.0),
+    "slip_arc": (0.6, -0.5, -1.0, 0.0, 1.0, -1.0, 1.0, -3.0, 1.0, -0.5),
+    "slip_load": (0.6, -1.5, 1.0, 0.5, 1.9, -1.0, 0.5, -2.0, 2.0, -1.0),
 }
 
 #: Errors are made equal by raising them, in units of the first, to the second, which brings the
@@ -67,9 +66,12 @@ def fit_blend(
         return np.asarray(np.log(value) - np.log(points.distance[far]))
 
     def misfit_of(name: str) -> Callable[[Floats], Floats]:
-        formula = arc_formula if name == "arc" else partial(load_formula, name=name)
         values = np.log(getattr(points, name))
-        return lambda constants: np.log(formula(constants, log_g, y)[0]) - values
+        if name in SLIP_QUANTITIES:
+            formula = FORMULAS[name]
+            return lambda constants: np.log(formula(constants, log_g, y, touched)[0]) - values
+        plain = arc_formula if name == "arc" else load_formula
+        return lambda constants: np.log(plain(constants, log_g, y)[0]) - values
 
     misfits = {name: misfit_of(name) for name in points.names}
     misfits["distance"] = distance_misfit

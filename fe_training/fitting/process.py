@@ -14,6 +14,7 @@ from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
 from surrogate.contact.coordinates import (
     POWER,
+    STEPS,
     coordinates,
     log_touch,
     vertex,
@@ -73,7 +74,11 @@ def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floa
     spread = np.hypot(points.distance_std * points.distance / gap, POWER * touch.error / x)
     distance = np.log(gap / (vertex(x) * wedge["distance"]))
     found = {
-        name: (at, np.log(getattr(points, name) / wedge[name]), points.relative_std(name) ** 2)
+        name: (
+            coordinates(log_g, log_alpha, touched, STEPS.get(name, 0.0)),
+            np.log(getattr(points, name) / wedge[name]),
+            points.relative_std(name) ** 2,
+        )
         for name in points.names
     }
     return {**found, "distance": (at[short], distance[short], spread[short] ** 2)}

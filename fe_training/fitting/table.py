@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.contact.coordinates import coordinates
+from surrogate.contact.coordinates import STEPS, coordinates
 from surrogate.contact.grid import Grid
 from surrogate.contact.process import ProcessModel
 from surrogate.contact.table import CellTable
@@ -15,7 +15,7 @@ __all__ = ["fit_table"]
 
 Floats = NDArray[np.float64]
 
-SHORT, PAST, STIFFENING = 56, 26, 48
+SHORT, PAST, STIFFENING = 56, 40, 48
 
 
 def fit_table(
@@ -42,15 +42,19 @@ def fit_table(
     log_g = grid.log_g_of(places[:, np.newaxis], rows)
     # beyond the domain, which the last cells overlap, the processes go on smoothly
     log_alpha = np.broadcast_to(rows, log_g.shape)
-    at = coordinates(log_g.ravel(), log_alpha.ravel(), limits.log_touch(log_alpha).ravel())
+    touch = limits.log_touch(log_alpha)
     scales = wedge_functions(log_g, wedge_load(log_g))
-    values = {
-        name: scales[name] * np.exp(process.processes[name].predict_mean(at).reshape(log_g.shape))
-        for name in process.processes
-    }
-    return CellTable(grid, {name: _sides(grid, value) for name, value in values.items()})
 
+    def side(name: str, some: slice, past: bool) -> Floats:
+        step = STEPS.get(name, 0.0)
+        g, alpha, touched = (each[some].ravel() for each in (log_g, log_alpha, touch))
+        mean = process.processes[name].predict_mean(coordinates(g, alpha, touched, step, past))
+        values = scales[name][some] * np.exp(mean.reshape(log_g[some].shape))
+        return np.asarray(values.astype(np.float32), dtype=float)  # which halves the file
 
-def _sides(grid: Grid, values: Floats) -> tuple[Floats, Floats]:
-    single = values.astype(np.float32).astype(float)  # which halves the file
-    return single[: grid.short + 1], single[grid.short :]
+    # the node at the touch belongs to either side, on which a quantity that jumps differs
+    short, past = slice(None, grid.short + 1), slice(grid.short, None)
+    return CellTable(
+        grid,
+        {name: (side(name, short, False), side(name, past, True)) for name in process.processes},
+    )

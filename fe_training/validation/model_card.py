@@ -281,7 +281,10 @@ def _formula(fitted: Fitted) -> Iterable[str]:
         "    ln b = b_2 + b_3 y + b_4 y^2,  n = b_5 + b_6 y\n\n"
         "    delta/R_w = 1 + delta_w [1 - (g/g_touch)^c]^q  for g < g_touch, else 1\n"
         "    c = c_1 + c_2 y,  q = c_3 + c_4 y\n\n"
-        "    A* as B with A_w in the place of B_w and d for b;  B* as B with e for b"
+        "    A* = A_w(g/(1 + g/e^d_1)) + d g^n + [g >= g_touch] e^(d_7 + d_8 y) g^m\n"
+        "    ln d = d_2 + d_3 y + d_4 y^2,  n = d_5 + d_6 y,  m = d_9 + d_10 y\n\n"
+        "    B* = B_w(g/(1 + g/e^e_1)) + e g^n + [g >= g_touch] e^(e_7 + e_8 y) (g^m - g_touch^m)\n"
+        "    ln e = e_2 + e_3 y + e_4 y^2,  n = e_5 + e_6 y,  m = e_9 + e_10 y"
     )
     letters = {
         "arc": "a",

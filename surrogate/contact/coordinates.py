@@ -7,7 +7,7 @@ x = ln(g/g_touch): functions of the three may bend at the touch. The quantities 
 
 the last one short of the touch only. It is finite there, because delta reaches R_w with a vertex of
 about that power; beyond, delta is R_w. The slip arc A* and the slip load B* are taken like A and B,
-which they become in the far field, where the face is not stretched.
+which they become in the far field, where the face is not stretched; A* jumps at the touch.
 
 Where the crack tip begins to touch the wire, and the coordinates that this gives the fits.
 
@@ -29,6 +29,7 @@ __all__ = [
     "POWER",
     "QUANTITIES",
     "SLIP_QUANTITIES",
+    "STEPS",
     "coordinates",
     "log_touch",
     "log_touch_slope",
@@ -37,18 +38,38 @@ __all__ = [
 
 QUANTITIES = ("arc", "normal_load", "distance")
 SLIP_QUANTITIES = ("slip_arc", "slip_load")
+STEPS = {"slip_arc": 4.0}
+"""Jumps of the last coordinate at the touch: of A*, to which the sharp tip adds its own slip there,
+some lengths of the processes, so that what is before and beyond hardly know of each other."""
+
 POWER = 1.75
 
 
-def coordinates(log_g: Any, log_alpha: Any, touch: Any) -> NDArray[np.float64]:
+def coordinates(
+    log_g: Any, log_alpha: Any, touch: Any, step: float = 0.0, past: Any = None
+) -> NDArray[np.float64]:
     """Return the coordinates of points as one array of shape (points, 3).
+
+    Parameters
+    ----------
+    log_g, log_alpha : float or ndarray
+        ln g and ln alpha.
+    touch : float or ndarray
+        ln g_touch there.
+    step : float, default 0
+        By how much the last coordinate jumps at the touch, for a quantity that does.
+    past : bool or ndarray of bool, optional
+        Which points count as past the touch; from it on by default.
 
     Examples
     --------
     >>> coordinates(2.0, 1.0, 1.5)
     array([[2. , 1. , 0.5]])
     """
-    beyond = np.maximum(np.subtract(log_g, touch), 0.0)
+    x = np.subtract(log_g, touch)
+    beyond = np.maximum(x, 0.0)
+    if step:
+        beyond = beyond + step * (x >= 0.0 if past is None else past)
     return np.stack(np.broadcast_arrays(*np.atleast_1d(log_g, log_alpha, beyond)), axis=-1)
 
 

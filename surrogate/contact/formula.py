@@ -1,4 +1,4 @@
-"""The model "power-law": formulas of six constants each for A, B, A* and B*, of four for delta.
+"""The model "power-law": formulas of six constants for A and B, four for delta, ten for A* and B*.
 
 With y = 1 - 2/alpha, which is 0 for a neo-Hookean solid, and A_w, B_w and delta_w of the far-field
 wedge (`surrogate.contact.wedge`),
@@ -9,7 +9,10 @@ wedge (`surrogate.contact.wedge`),
     B = B_w(g_B) + b g^n,   g_B = g/(1 + g/e^b_1),
     ln b = b_2 + b_3 y + b_4 y^2,   n = b_5 + b_6 y,
 
-    A* and B* as B, with A_w in the place of B_w for A*,
+    A* = A_w(g_A*) + d g^n + [g >= g_touch] e^(d_7 + d_8 y) g^m,   m = d_9 + d_10 y,
+    B* = B_w(g_B*) + e g^n + [g >= g_touch] e^(e_7 + e_8 y) (g^m - g_touch^m),   m = e_9 + e_10 y,
+
+with d_1 to d_6 and e_1 to e_6 in the place of b_1 to b_6,
 
     delta/R_w = 1 + delta_w [1 - (g/g_touch)^c]^q   short of the touch,
     c = c_1 + c_2 y,   q = c_3 + c_4 y.
@@ -34,7 +37,15 @@ from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import PROJECTED, FittedModel
 from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
 
-__all__ = ["BlendModel", "arc_formula", "distance_formula", "load_formula"]
+__all__ = [
+    "FORMULAS",
+    "BlendModel",
+    "arc_formula",
+    "distance_formula",
+    "load_formula",
+    "slip_arc_formula",
+    "slip_load_formula",
+]
 
 Constants: TypeAlias = "Sequence[float] | NDArray[np.float64]"
 
@@ -48,8 +59,8 @@ class BlendModel(FittedModel):
     limits : Domain
         Its domain.
     constants : mapping of str to tuple of float
-        a_1 to a_6 as "arc", b_1 to b_6 as "normal_load", c_1 to c_4 as "distance", and as many
-        as b as "slip_arc" and "slip_load".
+        a_1 to a_6 as "arc", b_1 to b_6 as "normal_load", c_1 to c_4 as "distance", d_1 to d_10 as
+        "slip_arc", e_1 to e_10 as "slip_load".
     """
 
     limits: Domain
@@ -71,11 +82,11 @@ class BlendModel(FittedModel):
         constants = self.constants[name]
         if name == "arc":
             value, in_g, in_y = arc_formula(constants, log_g, y)
-        elif name != "distance":
-            value, in_g, in_y = load_formula(constants, log_g, y, name)
+        elif name == "normal_load":
+            value, in_g, in_y = load_formula(constants, log_g, y)
         else:
             touch, bend = self.limits.log_touch_slopes(log_alpha)
-            value, in_g, in_y, in_touch = distance_formula(constants, log_g, y, touch)
+            value, in_g, in_y, in_touch = FORMULAS[name](constants, log_g, y, touch)
             return value, in_g, in_y * (1.0 - y) + in_touch * bend
         return value, in_g, in_y * (1.0 - y)  # dy/d ln alpha = 2/alpha
 
@@ -132,6 +143,37 @@ def distance_formula(c: Constants, log_g: Any, y: Any, touch: Any) -> tuple[Any,
         where(short, gap * in_y, 0.0),
         where(short, gap * bend * power, 0.0),
     )
+
+
+def slip_arc_formula(d: Constants, log_g: Any, y: Any, touch: Any) -> tuple[Any, Any, Any, Any]:
+    """Return A* and its derivatives by ln g, y and ln g_touch; what the tip adds jumps."""
+    value, in_g, in_y = load_formula(d, log_g, y, "slip_arc")
+    power = d[8] + d[9] * y
+    tip = where(log_g >= touch, exp(d[6] + d[7] * y + power * log_g), 0.0)
+    return value + tip, in_g + power * tip, in_y + (d[7] + d[9] * log_g) * tip, 0.0
+
+
+def slip_load_formula(e: Constants, log_g: Any, y: Any, touch: Any) -> tuple[Any, Any, Any, Any]:
+    """Return B* and its derivatives by ln g, y and ln g_touch, from above where it bends."""
+    value, in_g, in_y = load_formula(e, log_g, y, "slip_load")
+    power = e[8] + e[9] * y
+    past = log_g >= touch
+    tip = where(past, exp(e[6] + e[7] * y + power * log_g), 0.0)
+    seam = where(past, exp(e[6] + e[7] * y + power * touch), 0.0)
+    return (
+        value + (tip - seam),
+        in_g + power * tip,
+        in_y + (e[7] + e[9] * log_g) * tip - (e[7] + e[9] * touch) * seam,
+        -power * seam,
+    )
+
+
+FORMULAS = {
+    "distance": distance_formula,
+    "slip_arc": slip_arc_formula,
+    "slip_load": slip_load_formula,
+}
+"""Those that know where the tip touches."""
 
 
 def _saturated(log_g: Any, log_end: Any, power: float) -> tuple[Any, Any]:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.elementwise import log
-from surrogate.contact.coordinates import POWER, coordinates, vertex
+from surrogate.contact.coordinates import POWER, STEPS, coordinates, vertex
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import PROJECTED, FittedModel, in_blocks
 from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
@@ -192,11 +192,14 @@ class ProcessModel(FittedModel):
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         at, scales = self._at(log_g, log_alpha)
-        values = [_value(n, self.processes[n].predict_mean(at), scales) for n in names]
+        values = [
+            _value(n, self.processes[n].predict_mean(self._for(n, at)), scales) for n in names
+        ]
         return [float(v[0]) for v in values] if type(log_g) is float else values
 
     def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
         at, scales = self._at(log_g, log_alpha)
+        at = self._for(name, at)
         process = self.processes[name]
         value = _value(name, process.predict_mean(at), scales)
         slopes = process.gradient(at)
@@ -225,13 +228,20 @@ class ProcessModel(FittedModel):
         inside = self.limits.holds(g, alpha)
         stds = []
         for name in names:
-            mean, std = self.processes[name].predict(at)
+            mean, std = self.processes[name].predict(self._for(name, at))
             size = _value(name, mean, scales) - (1.0 if name == "distance" else 0.0)
             if name == "distance":
                 x = np.minimum(at[:, 0] - self.limits.log_touch(at[:, 1]), -self.touch_error)
                 std = np.hypot(std, POWER * self.touch_error / x)
             stds.append(np.where(inside, size * std, np.nan))
         return stds
+
+    def _for(self, name: str, at: Array) -> Array:
+        """Return the coordinates of points as the process of a quantity has them."""
+        if name not in STEPS:
+            return at
+        touch = self.limits.log_touch(at[:, 1])
+        return coordinates(at[:, 0], at[:, 1], touch, STEPS[name])
 
     def _at(self, log_g: Any, log_alpha: Any) -> tuple[Array, dict[str, Array]]:
         """Return the coordinates of points, and A, B and delta - 1 where the quantities are 0."""

@@ -15,7 +15,7 @@ import numpy as np
 from surrogate.basics.files import file_name, models_folder
 from surrogate.contact.archive import FILE, SCHEMA, content_of, read_fitted
 from surrogate.contact.bounds import Bounds
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS, coordinates
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import FittedModel
 from surrogate.contact.formula import BlendModel
@@ -203,7 +203,9 @@ def _process(
     if not (np.all(arrays[f"{name}.noise"] > 0.0) and np.all(np.array(prior["lengths"]) > 0.0)):
         raise ValueError(f"the process of {name} has a noise or a length that is not positive")
     return GaussianProcess(
-        inputs=coordinates(points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
+        inputs=coordinates(
+            points[:, 0], points[:, 1], limits.log_touch(points[:, 1]), STEPS.get(name, 0.0)
+        ),
         values=arrays[f"{name}.values"],
         noise=arrays[f"{name}.noise"].astype(float),
         active=arrays[f"{name}.active"].astype(np.intp),

@@ -7,7 +7,7 @@ from itertools import pairwise
 import mpmath
 import numpy as np
 
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS
 from surrogate.contact.process import JITTER
 from surrogate.contact.shipped import shipped
 
@@ -104,7 +104,14 @@ class Precise:
         def joined(name):
             b = [mp(x) for x in self.fitted.constants[name]]
             power = mpmath.exp(b[1] + b[2] * y + b[3] * y**2 + (b[4] + b[5] * y) * at)
-            return wedge(saturated(b[0], 1))[0][name] + power
+            return wedge(saturated(b[0], 1))[0][name] + power + at_tip(name, b)
+
+        def at_tip(name, b):
+            if len(b) < 10 or at < self._touch(row):
+                return mp(0)
+            m = b[8] + b[9] * y
+            below = mp(0) if name == "slip_arc" else mpmath.exp(m * self._touch(row))
+            return mpmath.exp(b[6] + b[7] * y) * (mpmath.exp(m * at) - below)
 
         distance, x = mp(1), at - self._touch(row)
         if x < 0:
@@ -133,7 +140,8 @@ class Precise:
         scales = wedge(at)[0]
         found = {}
         for name in self.names:
-            quantity = self._mean(name, [at, row, max(x, mp(0))])
+            step = mp(STEPS.get(name, 0)) if x >= 0 else mp(0)
+            quantity = self._mean(name, [at, row, max(x, mp(0)) + step])
             found[name] = scales[name] * mpmath.exp(quantity)
         found["distance"] = 1 + (-x) ** mp(1.75) * found["distance"] if x < 0 else mp(1)
         return found
