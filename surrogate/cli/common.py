@@ -40,6 +40,22 @@ def quantity(dimension: Dimension) -> Callable[[str], float]:
     return parse
 
 
+def percent(text: str) -> float:
+    """Return a share that may be written with a percent sign.
+
+    Examples
+    --------
+    >>> percent("5%"), percent("0.05")
+    (0.05, 0.05)
+    """
+    share = text.strip().removesuffix("%")
+    try:
+        value = float(share)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05") from None
+    return value / 100.0 if text.strip().endswith("%") else value
+
+
 def add_friction_and_stiffening(
     command: argparse.ArgumentParser, friction: float | None, stiffening: float | None
 ) -> None:

@@ -14,6 +14,7 @@ from surrogate.cli.common import (
     DOUBTED,
     add_friction_and_stiffening,
     add_model_option,
+    percent,
     print_record,
     quantity,
 )
@@ -268,22 +269,6 @@ def measured(dimension: Dimension) -> Callable[[str], tuple[float, float]]:
         ), parse(rest.strip())
 
     return parsed
-
-
-def percent(text: str) -> float:
-    """Return a share that may be written with a percent sign.
-
-    Examples
-    --------
-    >>> percent("5%"), percent("0.05")
-    (0.05, 0.05)
-    """
-    share = text.strip().removesuffix("%")
-    try:
-        value = float(share)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05") from None
-    return value / 100.0 if text.strip().endswith("%") else value
 
 
 def needs_modulus(model: str, friction: float | None) -> bool:
