@@ -58,7 +58,7 @@ def add_design_options(command: argparse.ArgumentParser) -> None:
     add("--force-std", type=quantity(LINE_FORCE), metavar="STD", help="scatter of one cut in N/m")
     add("--relative-error", type=percent, metavar="SHARE", help="or as a share of its force: 5%%")
     add(
-        "--diameters",
+        "--between",
         type=quantity(LENGTH),
         nargs=2,
         metavar=("THINNEST", "THICKEST"),
@@ -118,16 +118,16 @@ def design_record(options: argparse.Namespace) -> Record:
 
 def _sizes(options: argparse.Namespace) -> Any:
     """Return the diameters to choose from, or None for all that are sold."""
-    if options.diameters is None:
+    if options.between is None:
         return options.sizes
-    low, high = options.diameters
+    low, high = options.between
     from surrogate.identification.further_wire import sold_radii
 
     sizes = 2.0 * sold_radii(0.5 * low, 0.5 * high) if options.sizes is None else options.sizes
     within = [size for size in sizes if low <= size * (1.0 + 1e-9) and size * (1.0 - 1e-9) <= high]
     if not within:
         raise InputError(
-            f"no wire is from {1e3 * low:g} to {1e3 * high:g} mm across; give --diameters THINNEST "
+            f"no wire is from {1e3 * low:g} to {1e3 * high:g} mm across; give --between THINNEST "
             "THICKEST with wires between, or your own by --sizes."
         )
     return within

@@ -44,7 +44,7 @@ def test_an_earlier_result_brings_material_model_and_scatter(run, tmp_path, caps
     shares = [wire["residual"] / wire["force"] for wire in earlier["wires"]]
     assert record["relative_force_std"] == pytest.approx((sum(s**2 for s in shares) / 2) ** 0.5)
     assert len(record["others"]) >= 2
-    printed = run(f"--result {result} --sizes 0.1mm 0.3mm 1mm --diameters 0.09mm 1mm")[1]
+    printed = run(f"--result {result} --sizes 0.1mm 0.3mm 1mm --between 0.09mm 1mm")[1]
     assert "If Gamma_o = " in printed
 
 
@@ -53,7 +53,7 @@ def test_an_earlier_result_brings_material_model_and_scatter(run, tmp_path, caps
     [
         (GUESS, "give --relative-error"),
         ("--shear-modulus 30kPa --relative-error 5%", "give --toughness"),
-        (f"{GUESS} --relative-error 5% --diameters 3mm 4mm", "no wire is from 3 to 4 mm"),
+        (f"{GUESS} --relative-error 5% --between 3mm 4mm", "no wire is from 3 to 4 mm"),
         (f"{GUESS} --relative-error 5% --cuts 2", "from 3 to 100"),
         (f"{GUESS} --relative-error 5% --force-std 1N/m", "exactly one"),
         ("--result nowhere.json", "cannot be read"),
