@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from surrogate.identification.experiment_design import Design, design_radii
     from surrogate.identification.figure import plot_identification
     from surrogate.identification.fit import Identification, identify
+    from surrogate.identification.wire_design import WireDesign, design_wires
     from surrogate.maps.figure import plot_regime_map
     from surrogate.maps.make import RegimeMap, regime_map
     from surrogate.maps.points import MapPoints
@@ -86,11 +87,13 @@ __all__ = [
     "SteadyForce",
     "UncertainForce",
     "UnknownModelError",
+    "WireDesign",
     "WirecutError",
     "classify",
     "contact_functions",
     "cutting_force",
     "design_radii",
+    "design_wires",
     "dissipative_force",
     "energy_release_rate",
     "far_field_energy_release_rate",
@@ -140,6 +143,7 @@ _MODULES = {
     "identification.experiment_design": "Design design_radii",
     "identification.figure": "plot_identification",
     "identification.fit": "Identification identify",
+    "identification.wire_design": "WireDesign design_wires",
     "maps.figure": "plot_regime_map",
     "maps.make": "RegimeMap regime_map",
     "maps.points": "MapPoints",

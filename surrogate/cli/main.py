@@ -14,6 +14,7 @@ from surrogate.basics.command import OneLineParser, complete, run_command
 from surrogate.basics.figures import pictures_as
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
+from surrogate.cli.design import add_design_options, run_design
 from surrogate.cli.force import (
     add_force_options,
     add_regime_options,
@@ -48,6 +49,7 @@ _DESCRIPTIONS = {
     "force": "Steady cutting force per sample thickness of each wire, and what it is made of.",
     "steady": "Steady force of every record of a testing machine: the plateau after cutting began.",
     "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
+    "design": "Which wires to buy and how often to cut with each, and how exact that will be.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
     "models": "The force models that --model accepts.",
@@ -115,6 +117,18 @@ input.
 examples:
   wirecut identify --example
   wirecut identify cuts.csv --shear-modulus 685Pa --friction-coefficient 0.05
+""",
+    "design": f"""\
+From a guess of the material, or from an earlier result, the wires are chosen from which identify
+will tell most, under the model that it uses: of sizes that are sold and hold twice the force, and
+with one at least between the thinnest and the thickest, because only that shows whether the model
+holds. The standard errors are those of 1000 made-up experiments with these wires.
+{_UNITS}
+
+examples:
+  wirecut design --shear-modulus 30kPa --toughness 1.6J/m2 --wear-strength 12kPa --relative-error 5%
+  wirecut identify --example --json > gel.json
+  wirecut design --result gel.json --cuts 10 --relative-error 5% --thickness 20mm
 """,
     "regime": f"""\
 {_UNITS}
@@ -217,6 +231,7 @@ def _parser() -> argparse.ArgumentParser:
         ("force", add_force_options, run_force),
         ("steady", add_steady_options, run_steady),
         ("identify", add_identify_options, run_identify),
+        ("design", add_design_options, run_design),
         ("regime", add_regime_options, run_regime),
         ("map", lambda command: cli_map.add_options(command), run_map),
         ("models", lambda command: None, run_models),

@@ -17,7 +17,7 @@ from surrogate.inference.inputs import FORCE_STD, WIRE_RADIUS, column
 from surrogate.inference.line_fit import linear_form, solve_least_squares
 from surrogate.scene import Scene, require_scene
 
-__all__ = ["Design", "Noise", "design_radii"]
+__all__ = ["Design", "Noise", "design_radii", "whole_number"]
 
 Array = NDArray[np.float64]
 Goal = Literal["both", "toughness", "wear_strength"]
@@ -200,8 +200,8 @@ def design_radii(
             f"the range from smallest_radius = {smallest!r} m to largest_radius = {largest!r} m is "
             "empty; give two different radii, the smaller one first."
         )
-    cuts = _whole_number("cuts", cuts)
-    line_test_cuts = _whole_number("line_test_cuts", line_test_cuts)
+    cuts = whole_number("cuts", cuts)
+    line_test_cuts = whole_number("line_test_cuts", line_test_cuts)
     ends = cuts - line_test_cuts
     if line_test_cuts < 0 or ends < 2 or cuts > MOST_CUTS:
         raise InputError(
@@ -242,7 +242,14 @@ def _noise(
     return Noise(None, one_number(RELATIVE_FORCE_STD, relative_force_std), expected)
 
 
-def _whole_number(name: str, value: object) -> int:
+def whole_number(name: str, value: object) -> int:
+    """Return a validated number of cuts.
+
+    Examples
+    --------
+    >>> whole_number("cuts", 8)
+    8
+    """
     try:
         if not isinstance(value, bool):
             return operator.index(value)  # type: ignore[arg-type]

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from surrogate.basics.digits import rounded
 from surrogate.errors import InputError
-from surrogate.identification.digits import rounded
 from surrogate.identification.estimate import Estimate
 from surrogate.inference.line_fit import linear_form, solve_least_squares
 from surrogate.inference.profile import smallest_misfit

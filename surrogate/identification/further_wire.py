@@ -19,13 +19,22 @@ Array = NDArray[np.float64]
 BEYOND = 5.0
 """Factor by which a further wire may be thinner or thicker than those of the cuts."""
 
-SOLD = (10e-6, 1e-3)
-"""Radii of wires that can be bought and held [m]: from 20 um to 2 mm across."""
+DIAMETERS = tuple(
+    1e-3 * diameter
+    for diameter in (
+        *(0.02, 0.025, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.14, 0.16, 0.18),
+        *(0.2, 0.22, 0.25, 0.28, 0.3, 0.32, 0.36, 0.4, 0.45, 0.5, 0.56, 0.6, 0.65, 0.7, 0.75, 0.8),
+        *(0.85, 0.9, 0.95, 1.0, 1.1, 1.2, 1.25, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0),
+    )
+)
+"""Diameters in which drawn steel wire is commonly sold [m]: thinner than 20 um it can hardly be
+held, thicker than 2 mm it is no wire beside most samples."""
+
+SOLD = (0.5 * DIAMETERS[0], 0.5 * DIAMETERS[-1])
+"""Radii of the thinnest and of the thickest of them [m]."""
 
 STEEL_STRENGTH = 2e9
 """Breaking stress of drawn steel wire [Pa]; EN 10270-1 has 1.8 to 3 GPa below 1 mm."""
-
-CANDIDATES = 401
 
 
 @dataclass(frozen=True)
@@ -59,7 +68,7 @@ class FurtherWire:
     @property
     def breaking_force(self) -> float:
         """Force at which a steel wire of this radius breaks [N]."""
-        return STEEL_STRENGTH * float(np.pi) * self.wire_radius**2
+        return breaking_force(self.wire_radius)
 
     @property
     def cuts(self) -> float:
@@ -88,6 +97,31 @@ def range_of_wires(cuts: Cuts) -> tuple[float, float]:
     )
 
 
+def breaking_force(wire_radius: float) -> float:
+    """Return the force at which a steel wire breaks [N]; hung at both ends it carries more.
+
+    Examples
+    --------
+    >>> print(f"{breaking_force(0.1e-3):.0f} N")
+    63 N
+    """
+    return STEEL_STRENGTH * float(np.pi) * wire_radius**2
+
+
+def sold_radii(smallest: float, largest: float) -> Array:
+    """Return the radii of wires that are sold, from one to another [m]; may be none.
+
+    Examples
+    --------
+    >>> print(1e3 * sold_radii(0.1e-3, 0.15e-3))
+    [0.1   0.11  0.125 0.14  0.15 ]
+    """
+    rounding = 1e-9
+    radii = 0.5 * np.array(DIAMETERS)
+    within = radii >= smallest * (1.0 - rounding)
+    return np.asarray(radii[within & (radii <= largest * (1.0 + rounding))])
+
+
 def forces_of(
     model: ForceModel, cuts: Cuts, toughness: Array, wear_strength: Array, wire_radius: Array
 ) -> Array:
@@ -106,7 +140,7 @@ def forces_of(
 def further_wire(
     misfit: Misfit, profile: Profile, std: Array, searched: tuple[float, float]
 ) -> FurtherWire | None:
-    """Return the wire that tells most, among those for which the model holds.
+    """Return the wire that tells most, of those that are sold and for which the model holds.
 
     Compared are the minima that are admitted, where there are several; else the two ends of the
     toughness's interval, each with its best wear strength. The error of a force is taken as the
@@ -121,7 +155,7 @@ def further_wire(
     std : ndarray, shape (n,)
         Standard error of each of their forces [N/m]; all 0 where they have no scatter.
     searched : tuple of float
-        Smallest and largest radius to consider [m].
+        Smallest and largest radius to consider [m]; where no wire between is sold, these two.
 
     Returns
     -------
@@ -132,8 +166,9 @@ def further_wire(
     if gamma.size < 2:
         return None
     model, cuts, tau = misfit.model, misfit.cuts, misfit.at(gamma).wear_strength
-    radius = np.geomspace(*searched, CANDIDATES)
-    radius[0], radius[-1] = searched
+    radius = sold_radii(*searched)
+    if not radius.size:
+        radius = np.unique(searched)
     # every toughness that is admitted, not only those compared, stays within the model's range
     ends = profile.admitted[0, [0, -1]] if profile.admitted.size else gamma[[0, -1]]
     g = ends[:, np.newaxis] / (cuts.shear_modulus * radius)

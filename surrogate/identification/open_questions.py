@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from surrogate.identification.digits import below_digits
+from surrogate.basics.digits import below_digits
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.further_wire import FurtherWire
 from surrogate.inference.profile import Mode, Profile
@@ -48,11 +48,10 @@ def wire_in_words(wire: FurtherWire) -> str:
     low, high = wire.forces
     kind = "both materials" if wire.modes else "the ends of the toughness's interval"
     sentence = (
-        f"a wire of radius {1e3 * wire.wire_radius:.3g} mm would tell most: {low:.4g} N/m for "
+        f"a wire {2e3 * wire.wire_radius:.3g} mm across would tell most: {low:.4g} N/m for "
         f"Gamma_o = {wire.toughnesses[0]:.3g} J/m2, {high:.4g} N/m for {wire.toughnesses[1]:.3g} "
-        f"J/m2 ({kind}; a steel wire of it breaks at "
-        f"{wire.breaking_force:.2g} N; searched from {1e3 * wire.searched[0]:.3g} to "
-        f"{1e3 * wire.searched[1]:.3g} mm)"
+        f"J/m2 ({kind}; a steel wire breaks at {wire.breaking_force:.2g} N; of those sold from "
+        f"{2e3 * wire.searched[0]:.3g} to {2e3 * wire.searched[1]:.3g} mm)"
     )
     if np.isinf(wire.separation):
         return sentence

@@ -8,8 +8,8 @@ from textwrap import wrap
 
 import numpy as np
 
+from surrogate.basics.digits import below_digits, rounded
 from surrogate.basics.records import number
-from surrogate.identification.digits import below_digits, rounded
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import forgotten_friction_in_words

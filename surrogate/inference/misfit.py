@@ -264,6 +264,10 @@ class Misfit:
         """Return dF/dtau_w = 2 R_w A of each cut [m], shape (m, n)."""
         return self._parts(toughness)[1]
 
+    def bases(self, toughness: Array) -> Array:
+        """Return the forces without wear, Gamma_o and friction [N/m], shape (m, n)."""
+        return self._parts(toughness)[0]
+
     @property
     def is_continued(self) -> bool:
         """Whether wires beyond the model's range do not end the search."""

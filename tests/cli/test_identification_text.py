@@ -43,7 +43,7 @@ def test_minima_intervals_and_the_further_wire_are_printed(cuts, capsys, bump):
     assert "Gamma_o is in one of 2 intervals: 0 to" in printed
     assert "Undecided: 2 materials fit the forces" in printed
     text = " ".join(printed.split())
-    assert f"To decide: a wire of radius {1e3 * fit.further_wire.wire_radius:.3g} mm" in text
+    assert f"To decide: a wire {2e3 * fit.further_wire.wire_radius:.3g} mm across" in text
     assert "model 'bump'" in printed
     assert printed.isascii()
 

@@ -132,7 +132,7 @@ def test_two_materials_that_fit_are_both_reported_and_a_wire_between_them_named(
     assert f"tau_w = {1e-3 * admitted[1].wear_strength:.4g} kPa" in fit.undecided[0]
     wire = fit.further_wire
     assert wire.modes
-    assert f"a wire of radius {1e3 * wire.wire_radius:.3g} mm" in fit.undecided[-1]
+    assert f"a wire {2e3 * wire.wire_radius:.3g} mm across" in fit.undecided[-1]
     # No other wire in the range tells them apart better.
     ends = sorted(admitted, key=lambda mode: mode.toughness)
     grid = np.geomspace(*wire.searched, 5000)
