@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Experiment"]
 
-_ORIGIN = "read from the published line"
+_ORIGIN = "published line"
 _LINES = (("-.", "#0072B2"), ((0, (1, 1)), "#009E73"), ("--", "#CC79A7"))
 _MARKERS = 3
 _BEYOND_END = 1.1
@@ -112,7 +112,7 @@ class Experiment:
             self.paper, ax, pure_shear_toughness=self.gel.pure_shear_toughness, force_label=_ORIGIN
         )
         line = next(one for one in ax.get_lines() if "kPa" in str(one.get_label()))
-        line.set_label(rf"Eq. (13): {_short(self.paper.toughness, self.paper.wear_strength)}")
+        line.set_label(f"Eq. (13), {_short(self.paper.toughness)}")
         largest = ax.get_xlim()[1] * 1e-3
         radius = np.linspace(0.0, largest, 202)[1:]
         columns: Columns = {
@@ -124,7 +124,7 @@ class Experiment:
             inside = mode.toughness / (self.ours.shear_modulus * radius) <= upper
             force = np.full(radius.size, np.nan)
             force[inside] = cutting_force(self.scene(mode, radius[inside]), self.model).total
-            label = f"finite elements: {_short(mode.toughness, mode.wear_strength)}"
+            label = f"finite elements, {_short(mode.toughness)}"
             ax.plot(1e3 * radius, force, ls=style, color=colour, lw=1.2, label=label)
             columns[f"{self.model}_at_{mode.toughness:.3g}_J_per_m2", "N/m"] = force
         _label_references(ax, self.gel.pure_shear_toughness, self.paper.transition_radius)
@@ -211,8 +211,8 @@ def _toughness(mode: Mode) -> str:
     return rf"$\Gamma_o$ = {mode.toughness:.2g} J/m$^2$"
 
 
-def _short(toughness: float, wear_strength: float) -> str:
-    return rf"{toughness:.2g} J/m$^2$, {1e-3 * wear_strength:.3g} kPa"
+def _short(toughness: float) -> str:
+    return rf"{toughness:.2g} J/m$^2$"
 
 
 def _label_references(ax: Axes, gamma: float | None, star: float) -> None:
