@@ -199,7 +199,7 @@ def specimen_figure(results: Sequence[Result], figure: Figure) -> Columns:
         ax.set(xscale="log", xlim=(1e-3, 3.0), ylim=(0.0, None))
         label_axes(ax, TOUGHNESS, name)
     bar = figure.colorbar(colours, ax=axes, pad=0.01)
-    bar.set_label(r"height of the block $H/R_w$ [-]", fontsize=MEDIUM)
+    bar.set_label(r"half the height of the block, $H/R_w$ [-]", fontsize=MEDIUM)
     bar.set_ticks(heights, labels=[f"{height:g}" for height in heights])
     bar.ax.tick_params(labelsize=SMALL)
     bar.ax.minorticks_off()
