@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surrogate.basics.command import OneLineParser, run_command
+from surrogate.basics.figures import in_style
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:
@@ -373,39 +374,36 @@ def _check_files(options: argparse.Namespace) -> None:
     if options.plot and Path(options.plot).suffix.lower() not in _PICTURES:
         raise InputError(f"{options.plot} has no picture's ending; choose .png, .pdf or .svg.")
     if options.plot:
-        from fe_training.figure_style import require_matplotlib
+        from surrogate.basics.figures import require_matplotlib
 
         require_matplotlib()
 
 
+@in_style
 def _draw(file: str, records: Sequence[Record], settings: Settings) -> None:
     """Draw the configuration of the largest g, J against distance, and the stress ahead."""
     reached = [record for record in records if record.is_reached]
     if not reached:
         sys.stderr.write(f"fe_training: nothing was reached, {file} is not drawn\n")
         return
-    from matplotlib.figure import Figure
-
-    from fe_training.figure_style import SINGLE_COLUMN
     from fe_training.solver.path import PathStalledError
     from fe_training.solver.pictures import (
         plot_configuration,
         plot_energy_release_rate,
         plot_stress_ahead,
     )
+    from surrogate.basics.figures import SINGLE_COLUMN, new_figure, panels, save_figure
 
-    figure = Figure(figsize=(SINGLE_COLUMN, 2.5 * SINGLE_COLUMN), layout="constrained")
-    places = figure.subplots(3, 1, height_ratios=[1.2, 0.8, 0.8])
+    width = SINGLE_COLUMN[0]
+    figure = new_figure((width, 2.5 * width))
+    places = panels(figure, 1, 3, height_ratios=[1.2, 0.8, 0.8])[:, 0]
     with suppress(PathStalledError):
         ax = plot_configuration(*_again(reached[-1], settings), places[0])
         chosen = rf"$\alpha$ = {reached[-1].alpha:g}, $g$ = {reached[-1].energy_release_rate:.3g}"
         ax.set_title(f"{chosen}; {ax.get_title()}", fontsize=ax.title.get_fontsize(), pad=3)
     plot_energy_release_rate(reached, places[1])
     plot_stress_ahead(reached, places[2])
-    try:
-        figure.savefig(file, dpi=300)
-    except OSError as error:
-        raise InputError(f"{file} cannot be written ({error.strerror}).") from None
+    save_figure(figure, file)
 
 
 def _again(record: Record, settings: Settings) -> tuple[Body, State]:

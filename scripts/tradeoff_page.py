@@ -13,10 +13,14 @@ from fe_training.markdown import markdown_table
 from surrogate.basics.figures import (
     BLUE,
     GREY,
-    MEDIUM,
     RED,
     SMALL,
+    WIDTHS,
+    in_style,
+    label_axes,
+    legend_over,
     new_figure,
+    panels,
     save_figure,
 )
 from surrogate.choosing.by_name import FITTED_NAMES
@@ -27,7 +31,6 @@ FIGURE = "tradeoff"
 REFERENCE, ENGINE = "plain Eq. (13)", "finite elements"
 NUMBA, GP_STD, THEIR_STD = "table, numba", "gp with std", "scikit-learn GPR with std"
 OURS = (*FORCE_MODELS, *FITTED_NAMES, "auto", NUMBA, GP_STD)
-MARKERS = "osD^vP*X<>hp"
 
 
 @dataclass
@@ -166,25 +169,42 @@ def costs(found: Sequence[Measured]) -> str:
     )
 
 
+@in_style
 def draw(found: Sequence[Measured], folder: Path) -> None:
     """Draw cost against error; the line joins what nothing else beats in both."""
     shown = sorted((m for m in found if m.force), key=lambda m: m.cost)
-    figure = new_figure((5.6, 3.2))
-    ax = figure.subplots()
-    for m, marker in zip(shown, MARKERS * 2, strict=False):
-        colour = BLUE if m.name in OURS else RED
+    figure = new_figure((WIDTHS["single"] * 1.6, 3.2))
+    ax = panels(figure, 1)[0, 0]
+    for m in shown:
         error = 100.0 * m.force.largest
-        ax.plot(m.cost, error, marker, color=colour, markersize=5, label=m.name)
+        ours = m.name in OURS
+        ax.plot(m.cost, error, "o" if ours else "D", color=BLUE if ours else RED, ms=4.5)
     edge: list[Measured] = []
     for m in shown:
         if not edge or m.force.largest < 0.999 * edge[-1].force.largest:
             edge.append(m)
     ends = [m.cost for m in edge], [100.0 * m.force.largest for m in edge]
     ax.plot(*ends, color=GREY, linewidth=0.8, zorder=0)
-    ax.set(xscale="log", yscale="log")
-    ax.set_xlabel("processor time of a value [ns]", fontsize=MEDIUM)
-    ax.set_ylabel(r"largest error of $F_{ss}$ [%]", fontsize=MEDIUM)
-    ax.tick_params(labelsize=SMALL)
-    figure.legend(loc="outside right upper", fontsize=SMALL, frameon=False)
+    for number, m in enumerate(shown):
+        _name(ax, m, below=number % 2 == 0 and m.force.largest < 0.01)
+    ax.set(xscale="log", yscale="log", xlim=(2.0, 3e10), ylim=(0.02, 600.0))
+    label_axes(ax, "processor time of a value [ns]", r"largest error of $F_{ss}$ [%]")
+    handles = ax.plot([], [], "o", color=BLUE, ms=4.5, label="this library")
+    handles += ax.plot([], [], "D", color=RED, ms=4.5, label="other libraries, finite elements")
+    legend_over(figure, handles, 2)
     for ending in (".svg", ".png"):
         save_figure(figure, folder / f"{FIGURE}{ending}")
+
+
+def _name(ax: Any, m: Measured, below: bool) -> None:
+    """Write a name beside its point, on a slant, so that neighbours do not meet."""
+    ax.annotate(
+        m.name,
+        (m.cost, 100.0 * m.force.largest),
+        (3.0, -4.0 if below else 4.0),
+        textcoords="offset points",
+        rotation=-40.0 if below else 40.0,
+        rotation_mode="anchor",
+        va="top" if below else "bottom",
+        fontsize=SMALL,
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from surrogate import (
     read_measurements,
     regime_map,
 )
-from surrogate.basics.figures import legend_above
+from surrogate.basics.figures import SMALL, legend_above
 from surrogate.basics.files import model_file
 from surrogate.choosing.by_name import force_model
 from surrogate.cutting.force import cutting_force
@@ -32,9 +32,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Experiment"]
 
-_ORIGIN = "read from the published line"
+_ORIGIN = "published line"
 _LINES = (("-.", "#0072B2"), ((0, (1, 1)), "#009E73"), ("--", "#CC79A7"))
 _MARKERS = 3
+_BEYOND_END = 1.1
+"""Factor above the model's end from which a minimum is one of the forces, not of that end."""
+_BESIDE: dict[str, Any] = {"textcoords": "offset points", "fontsize": SMALL}
 
 
 class Experiment:
@@ -71,10 +74,16 @@ class Experiment:
 
     @property
     def modes(self) -> list[Mode]:
-        """The minima that the forces admit and the search contains, the best first."""
+        """The minima that the forces admit, inside the search and the model's range, best first."""
         profile = self.ours.profile
         assert profile is not None  # a fitted model is not linear
-        return [one for one in profile.modes if one.admitted and not one.at_end]
+        low = force_model(self.model).accepted(False)[0].lower
+        least = low * self.ours.shear_modulus * float(self.cuts.wire_radius.max())
+        return [
+            one
+            for one in profile.modes
+            if one.admitted and not one.at_end and one.toughness > _BEYOND_END * least
+        ]
 
     def scene(self, mode: Mode, radius: np.ndarray) -> Scene:
         """Return cuts of the gel [m] as one of the minima has it."""
@@ -103,7 +112,7 @@ class Experiment:
             self.paper, ax, pure_shear_toughness=self.gel.pure_shear_toughness, force_label=_ORIGIN
         )
         line = next(one for one in ax.get_lines() if "kPa" in str(one.get_label()))
-        line.set_label(f"Eq. (13), {line.get_label()}")
+        line.set_label(f"Eq. (13), {_short(self.paper.toughness)}")
         largest = ax.get_xlim()[1] * 1e-3
         radius = np.linspace(0.0, largest, 202)[1:]
         columns: Columns = {
@@ -115,10 +124,10 @@ class Experiment:
             inside = mode.toughness / (self.ours.shear_modulus * radius) <= upper
             force = np.full(radius.size, np.nan)
             force[inside] = cutting_force(self.scene(mode, radius[inside]), self.model).total
-            label = rf"finite elements, {_in_words(mode)}"
+            label = f"finite elements, {_short(mode.toughness)}"
             ax.plot(1e3 * radius, force, ls=style, color=colour, lw=1.2, label=label)
             columns[f"{self.model}_at_{mode.toughness:.3g}_J_per_m2", "N/m"] = force
-        legend_above(ax, 1)
+        _label_references(ax, self.gel.pure_shear_toughness, self.paper.transition_radius)
         return columns
 
     def map_figure(self, ax: Axes) -> Columns:
@@ -202,5 +211,17 @@ def _toughness(mode: Mode) -> str:
     return rf"$\Gamma_o$ = {mode.toughness:.2g} J/m$^2$"
 
 
-def _in_words(mode: Mode) -> str:
-    return rf"{_toughness(mode)}, $\tau_w$ = {1e-3 * mode.wear_strength:.2g} kPa"
+def _short(toughness: float) -> str:
+    return rf"{toughness:.2g} J/m$^2$"
+
+
+def _label_references(ax: Axes, gamma: float | None, star: float) -> None:
+    """Name the straight lines where they are, and the others above the axes."""
+    if gamma is not None:
+        label = rf"$\Gamma$ = {gamma:g} J/m$^2$"
+        ax.annotate(label, (ax.get_xlim()[1], gamma), (0, -3), ha="right", va="top", **_BESIDE)
+    label = rf"$R_w^*$ = {1e6 * star:.3g} µm"
+    ax.annotate(label, (1e3 * star, ax.get_ylim()[1]), (3, 0), va="top", **_BESIDE)
+    drawn = ax.get_legend_handles_labels()[0]
+    handles = [one for one in drawn if not str(one.get_label()).startswith("$")]
+    legend_above(ax, 2, handles)

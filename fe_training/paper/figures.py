@@ -14,21 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.campaign.dataset import Campaign
-from fe_training.figure_style import (
-    DISTANCE,
-    STYLES,
-    TOUGHNESS,
-    Columns,
-    legend,
-    named,
-    panels,
-)
+from fe_training.figure_style import DISTANCE, STYLES, TOUGHNESS, Columns
 from fe_training.mechanics.analytic import far_field_wedge
 from fe_training.paper.curve import TOUCHED, Curve, stacked
 from fe_training.paper.power_laws import fits, local_exponent, over_lower_end
 from fe_training.solver.pictures import plot_stress_ahead
 from fe_training.solver.record import Outcome, Record
-from surrogate.basics.figures import MEDIUM
+from surrogate.basics.figures import MEDIUM, label_at_right, label_axes, legend_over, panels
 from surrogate.equations import TABLE_1, far_field_energy_release_rate
 from surrogate.errors import InputError
 
@@ -77,7 +69,7 @@ def energy_release_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     ----------
     arXiv:2412.02021, Eq. (5) and Fig. 2c.
     """
-    left, right = panels(figure, 2)
+    left, right = panels(figure, 2)[0]
     furthest = max(float(one.distance.max()) for one in curves)
     distance = np.geomspace(1.0, furthest, 300)
     wedge = np.asarray(far_field_wedge(distance).energy_release_rate)
@@ -102,9 +94,9 @@ def energy_release_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     right.set_xscale("log")
     right.set_ylim(-6.0, 0.0)
     right.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
-    named(left, DISTANCE, r"$J/(\mu R_w)$ [-]")
-    named(right, DISTANCE, r"$d\,\ln J/d\,\ln\delta$ [-]")
-    legend(figure, handles, len(handles))
+    label_axes(left, DISTANCE, r"$J/(\mu R_w)$ [-]")
+    label_axes(right, DISTANCE, r"$d\,\ln J/d\,\ln\delta$ [-]")
+    legend_over(figure, handles, len(handles))
     alpha, at, rate = stacked(curves, "distance", "g")
     return {
         ("alpha", ""): alpha,
@@ -233,7 +225,7 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     ----------
     arXiv:2412.02021, Eqs. (9), (11), (13), (S2), Table 1 and Fig. 4.
     """
-    axes = panels(figure, len(curves))
+    axes = panels(figure, len(curves))[0]
     shades = ("#56B4E9", "#0072B2", "#001f3f")
     parts: list[Columns] = []
     for ax, one in zip(axes, curves, strict=True):
@@ -248,7 +240,7 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
             ax.plot(high, high ** TABLE_1[one.alpha], "k--", lw=0.9)
         ax.set_title(rf"$\alpha$ = {one.alpha:g}", fontsize=MEDIUM)
         ax.set(xscale="log", yscale="log", ylim=(0.8, 300.0))
-        named(ax, TOUGHNESS, r"$F_d/(\xi\mu R_w T)$ [-]")
+        label_axes(ax, TOUGHNESS, r"$F_d/(\xi\mu R_w T)$ [-]")
         ax.label_outer()
     handles = []
     for ratio, colour, marker in zip(RATIOS, shades, ("o", "s", "^"), strict=True):
@@ -257,7 +249,7 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     label = "Eq. (13), same colours"
     handles += axes[0].plot([], [], "-", color=shades[1], lw=0.9, label=label)
     handles += axes[0].plot([], [], "k--", lw=0.9, label="Eq. (9), Table 1")
-    legend(figure, handles, 3)
+    legend_over(figure, handles, 3)
     return {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
 
 
@@ -292,25 +284,31 @@ def exponent_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     ----------
     arXiv:2412.02021, Eq. (9) and Table 1.
     """
-    left, right = panels(figure, 2)
-    handles = []
+    left, right = panels(figure, 2)[0]
+    ends: list[list[tuple[float, str]]] = [[], []]
     for one in curves:
         style = {"lw": 1.1, **STYLES[one.alpha], "marker": ""}
-        label = rf"$\alpha$ = {one.alpha:g}"
-        high = one.g >= 0.5
+        marks = {**style, "ls": "", "marker": STYLES[one.alpha]["marker"], "ms": 2.2}
         slope = local_exponent(one.g, one.normal_load)
-        handles += left.plot(one.g[high], slope[high], **style, label=label)
-        right.plot(*over_lower_end(one, False), **style)
-        right.plot(*over_lower_end(one, True), **{**style, "lw": 0.7, "marker": "o", "ms": 2.0})
+        high = one.g >= 0.5
+        left.plot(one.g[high], slope[high], **style)
+        free, fixed = over_lower_end(one, False), over_lower_end(one, True)
+        right.plot(*free, **style)
+        right.plot(*fixed, **marks)
+        for side, value in zip(ends, (slope[high][-1], free[1][-1]), strict=True):
+            side.append((float(value), rf"$\alpha$ = {one.alpha:g}"))
         for ax in (left, right) if one.alpha in TABLE_1 else ():
-            n = [TABLE_1[one.alpha]] * 2
-            ax.plot([110.0, 190.0], n, color=style["color"], ls=style["ls"], lw=1.8)
-    handles += right.plot([], [], "k-", lw=1.1, label="C free")
-    handles += right.plot([], [], "k-", lw=0.7, marker="o", ms=2.0, label="C = 1")
-    handles += right.plot([], [], "k-", lw=1.8, label="Table 1, at the right")
-    for ax in (left, right):
+            ax.axhline(TABLE_1[one.alpha], color=style["color"], ls=":", lw=0.9)
+    for ax, side in zip((left, right), ends, strict=True):
         ax.set(xscale="log", ylim=(0.0, 1.3))
-    named(left, TOUGHNESS, r"$d\,\ln B/d\,\ln g$ [-]")
-    named(right, "lowest $g$ of the fit, up to the largest [-]", r"$n$ of $2B = C\,g^{\,n}$ [-]")
-    legend(figure, handles, len(handles))
+        label_at_right(ax, side)
+    handles = right.plot(
+        [], [], "k-", lw=1.1, label="$d\\,\\ln B/d\\,\\ln g$, and $n$ with $C$ free"
+    )
+    handles += right.plot([], [], "ko", ms=2.2, label="$n$ with $C = 1$")
+    handles += right.plot([], [], "k:", lw=0.9, label="Table 1")
+    label_axes(left, TOUGHNESS, r"$d\,\ln B/d\,\ln g$ [-]")
+    lowest = "lowest $g$ of the fit, up to the largest [-]"
+    label_axes(right, lowest, r"$n$ of $2B = C\,g^{\,n}$ [-]")
+    legend_over(figure, handles, len(handles))
     return {(name, ""): values for name, values in fits(curves).items()}

@@ -12,21 +12,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fe_training.figure_style import (
-    COLOURS,
-    GREY,
-    MARKERS,
-    add_legend,
-    label_axes,
-    new_axes,
-    require_matplotlib,
-)
 from fe_training.mechanics.analytic import far_field_wedge
 from fe_training.mechanics.body import Body
 from fe_training.solver.equilibrium import Control, State, control_value
 from fe_training.solver.observe import contact_arc, principal_stretch
 from fe_training.solver.record import Outcome, Record
-from surrogate.basics.figures import MEDIUM, SMALL
+from surrogate.basics.figures import (
+    COLOURS,
+    GREY,
+    MARKERS,
+    MEDIUM,
+    SINGLE_COLUMN,
+    SMALL,
+    label_axes,
+    legend_above,
+    new_axes,
+    require_matplotlib,
+)
 from surrogate.equations import far_field_energy_release_rate
 from surrogate.errors import InputError
 
@@ -84,7 +86,7 @@ def plot_configuration(body: Body, state: State, ax: Axes | None = None) -> Axes
 
     Raises
     ------
-    MissingExtraError
+    WirecutError
         If matplotlib is not installed.
 
     Examples
@@ -98,7 +100,7 @@ def plot_configuration(body: Body, state: State, ax: Axes | None = None) -> Axes
     >>> ax.get_xlabel()
     '$x/R_w$ [-]'
     """
-    ax = ax or new_axes(0.98)
+    ax = ax or new_axes((SINGLE_COLUMN[0], 0.98 * SINGLE_COLUMN[0]))
     require_matplotlib()
     from matplotlib.collections import LineCollection, PolyCollection
     from matplotlib.colors import LogNorm
@@ -243,7 +245,7 @@ def plot_energy_release_rate(records: Sequence[Record], ax: Axes | None = None) 
     ------
     InputError
         If no record has been reached.
-    MissingExtraError
+    WirecutError
         If matplotlib is not installed.
 
     References
@@ -258,7 +260,7 @@ def plot_energy_release_rate(records: Sequence[Record], ax: Axes | None = None) 
     'log'
     """
     reached = _reached(records)
-    ax = ax or new_axes(0.8)
+    ax = ax or new_axes((SINGLE_COLUMN[0], 0.8 * SINGLE_COLUMN[0]))
     require_matplotlib()
     largest = max(5.0, 1.5 * max(record.distance for record in reached))
     distance = np.geomspace(1.0, largest, 200)
@@ -280,7 +282,7 @@ def plot_energy_release_rate(records: Sequence[Record], ax: Axes | None = None) 
     ax.set_xlim(0.93, largest)
     _plain_ticks(ax, largest)
     label_axes(ax, r"distance to the tip $\delta/R_w$ [-]", r"$J/(\mu R_w)$ [-]")
-    add_legend(ax, 2)
+    legend_above(ax, 2)
     return ax
 
 
@@ -308,7 +310,7 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     ------
     InputError
         If no record has been reached.
-    MissingExtraError
+    WirecutError
         If matplotlib is not installed.
 
     References
@@ -325,7 +327,7 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     '$\\\\sigma_{22}/\\\\mu$ [-]'
     """
     reached = _reached(records)
-    ax = ax or new_axes(0.8)
+    ax = ax or new_axes((SINGLE_COLUMN[0], 0.8 * SINGLE_COLUMN[0]))
     require_matplotlib()
     reached.sort(key=lambda r: (r.alpha, r.distance))
     chosen = np.linspace(0, len(reached) - 1, min(len(reached), _MOST_CURVES)).round()
@@ -350,7 +352,7 @@ def plot_stress_ahead(records: Sequence[Record], ax: Axes | None = None) -> Axes
     ax.set_xscale("log")
     ax.set_yscale("log")
     label_axes(ax, "distance ahead of the tip $r/R_w$ [-]", r"$\sigma_{22}/\mu$ [-]")
-    add_legend(ax, 1 if several else 2)
+    legend_above(ax, 1 if several else 2)
     return ax
 
 

@@ -10,28 +10,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fe_training.figure_style import (
+from fe_training.verification.studies import Finding, Measure, StudyResult
+from surrogate.basics.figures import (
     COLOURS,
     GREY,
     MARKERS,
-    add_legend,
+    SINGLE_COLUMN,
+    WIDTHS,
+    in_style,
     label_axes,
+    legend_above,
+    legend_over,
     new_axes,
-    require_matplotlib,
+    new_figure,
+    panels,
+    save_figure,
 )
-from fe_training.verification.studies import Finding, Measure, StudyResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
 __all__ = ["plot_measure", "plot_truncation"]
-
-_DPI = 300
-
-
-_DOUBLE_COLUMN = 183.0 / 25.4
-
 
 #: What stands at the axes instead of the names of the tables.
 _SYMBOLS = {
@@ -49,36 +49,38 @@ _SYMBOLS = {
 }
 
 
+#: Exponents whose points are joined by lines; more of them would tangle.
+_MOST_LINES = 3
+
 #: Values below this are drawn on it: rounding.
 _SMALLEST_DRAWN = 1e-8
 
 
+@in_style
 def draw_study(folder: Path, result: StudyResult) -> list[Path]:
-    """Draw a panel for each measure of a study."""
-    from matplotlib.figure import Figure
-
+    """Draw a panel for each measure of a study, and one legend for all of them."""
     names = list(dict.fromkeys(m.name for f in result.findings for m in f.measures))
-    panels: list[Callable[[Axes], object]] = [
+    drawings: list[Callable[[Axes], object]] = [
         functools.partial(plot_measure, result, name) for name in names
     ]
     if result.facts:
-        panels.append(functools.partial(plot_truncation, result))
-    require_matplotlib()
-    rows = math.ceil(len(panels) / 2)
-    size = (_DOUBLE_COLUMN, 0.33 * _DOUBLE_COLUMN * rows + 0.7)
-    figure = Figure(figsize=size, layout="constrained")
-    places = figure.subplots(rows, 2, squeeze=False).ravel()
-    for panel, ax in zip(panels, places, strict=False):
-        panel(ax)
-    for ax in places[1 : len(names)]:
-        ax.get_legend().remove()  # the first panel names them all
-    for ax in places[len(panels) :]:
+        drawings.append(functools.partial(plot_truncation, result))
+    rows = math.ceil(len(drawings) / 2)
+    figure = new_figure((WIDTHS["double"], 0.33 * WIDTHS["double"] * rows + 0.5))
+    places = panels(figure, 2, rows).ravel()
+    handles: dict[str, Any] = {}
+    for drawing, ax in zip(drawings, places, strict=False):
+        drawing(ax)
+        handles |= {one.get_label(): one for one in ax.get_legend_handles_labels()[0]}
+        ax.get_legend().remove()
+    legend_over(figure, list(handles.values()), 6)
+    for ax in places[len(drawings) :]:
         ax.remove()
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # laid out once for all files
     files = [folder / f"{result.name}{ending}" for ending in (".pdf", ".png")]
     for file in files:
-        figure.savefig(file, dpi=_DPI)
+        save_figure(figure, file)
     return files
 
 
@@ -86,7 +88,8 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     """Draw a measure of a study against g, with its bound.
 
     Where several variants are compared each has its colour, else each exponent; an exponent has
-    its marker.  Hollow markers break the bound; crosses on the upper edge were not reached.
+    its marker. Lines join the points of an exponent or, where they would be many, the largest of
+    all exponents.  Hollow markers break the bound; crosses on the upper edge were not reached.
 
     Parameters
     ----------
@@ -110,7 +113,7 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     >>> ax.get_ylabel()
     '$|\\\\Delta B|/B$ [-]'
     """
-    ax = ax or new_axes(0.8)
+    ax = ax or new_axes((SINGLE_COLUMN[0], 0.8 * SINGLE_COLUMN[0]))
     rows = [(f, m) for f in result.findings if f.solved for m in f.measures if m.name == name]
     alphas = list(dict.fromkeys(one.alpha for one, _ in rows))
     variants = list(dict.fromkeys(one.variant for one, _ in rows))
@@ -143,7 +146,12 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
                     mew=0.8,
                     zorder=3,
                 )
-            ax.plot([x for x, *_ in known], [y for _, y, _ in known], "-", color=colour, lw=0.6)
+            if not by_variant and len(alphas) <= _MOST_LINES:
+                ax.plot([x for x, *_ in known], [y for _, y, _ in known], "-", color=colour, lw=0.6)
+    if by_variant or len(alphas) > _MOST_LINES:
+        for i, variant in enumerate(variants if by_variant else [None]):
+            colour = _colour(i) if by_variant else GREY
+            ax.plot(*_largest(rows, variant, by_alpha), "-", color=colour, lw=0.8)
     _draw_bounds(ax, rows, by_alpha)
     ax.set_xscale("linear" if by_alpha else "log")
     if any(math.isfinite(m.value) for _, m in rows):
@@ -159,8 +167,20 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
         ax.plot([], [], "-", color=_colour(i), lw=1.5, label=variant.replace("_", " "))
     x_label = r"stiffening exponent $\alpha$ [-]" if by_alpha else "$g = J/(\\mu R_w)$ [-]"
     label_axes(ax, x_label, f"{_SYMBOLS.get(name, name)} [-]")
-    add_legend(ax, 2 if by_variant else 3)
+    legend_above(ax, 2 if by_variant else 3)
     return ax
+
+
+def _largest(
+    rows: Sequence[tuple[Finding, Measure]], variant: str | None, by_alpha: bool
+) -> tuple[list[float], list[float]]:
+    """Return the largest measure of all exponents over g, of one variant or of all."""
+    largest: dict[float, float] = {}
+    for one, measure in rows:
+        if variant in (None, one.variant) and math.isfinite(measure.value):
+            at = one.alpha if by_alpha else one.g
+            largest[at] = max(measure.value, largest.get(at, _SMALLEST_DRAWN))
+    return sorted(largest), [largest[at] for at in sorted(largest)]
 
 
 def _nothing_known(finding: Finding) -> bool:
@@ -212,7 +232,7 @@ def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
         The axes, both scales logarithmic.
     """
-    ax = ax or new_axes(0.8)
+    ax = ax or new_axes((SINGLE_COLUMN[0], 0.8 * SINGLE_COLUMN[0]))
     rows = [one for one in result.findings if one.data and math.isfinite(one.measures[0].value)]
 
     def law(one: Finding) -> float:
@@ -231,5 +251,5 @@ def plot_truncation(result: StudyResult, ax: Axes | None = None) -> Axes:
     ax.set_xscale("log")
     ax.set_yscale("log")
     label_axes(ax, r"$\sqrt{g R_w/L} - \sqrt{g R_w/L_0}$ [-]", f"{_SYMBOLS['|dB|/B']} [-]")
-    add_legend(ax, 2)
+    legend_above(ax, 2)
     return ax

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import wraps
 from io import BytesIO
 from os import PathLike
 from pathlib import Path, PurePath
+from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from surrogate.basics.checks import shown
 from surrogate.basics.extras import require_extra
 from surrogate.basics.files import file_name, written_whole
+from surrogate.basics.picture_form import picture_form
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:
@@ -23,24 +26,26 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BLUE",
+    "COLOURS",
     "ENDINGS",
     "FILLS",
     "GREY",
+    "MARKERS",
     "MEDIUM",
     "RED",
     "SINGLE_COLUMN",
     "SMALL",
     "WIDTHS",
-    "PictureForm",
     "figure_width",
     "in_style",
     "label_at_right",
+    "label_axes",
     "legend_above",
+    "legend_over",
     "new_axes",
     "new_figure",
+    "panels",
     "picture_file",
-    "picture_form",
-    "pictures_as",
     "require_axes",
     "require_matplotlib",
     "save_figure",
@@ -59,6 +64,11 @@ WIDTHS = {"single": 3.4, "double": 7.0}
 
 SMALL, MEDIUM = 7.0, 8.0
 BLUE, RED, GREY = "#1f5fa8", "#c0392b", "#555555"
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+"""Okabe and Ito's colours, which the colour-blind tell apart, without the yellow."""
+
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 FILLS = {
     "transition": "#ffffff",
@@ -86,53 +96,6 @@ _METADATA: dict[str, dict[str, Any]] = {
     ".tif": {},
     ".tiff": {},
 }
-
-
-@dataclass(frozen=True)
-class PictureForm:
-    """How pictures are wanted that are written to files.
-
-    Parameters
-    ----------
-    width : float or None
-        Width [inch] in place of each figure's own.
-    dpi : int
-        Points an inch of pictures made of points (.png, .tif).
-    legend : bool
-        Whether to draw legends.
-    diameters : bool
-        Whether to show diameters of wires in place of radii.
-    """
-
-    width: float | None = None
-    dpi: int = 300
-    legend: bool = True
-    diameters: bool = False
-
-
-_FORM: ContextVar[PictureForm] = ContextVar("picture_form", default=PictureForm())  # noqa: B039
-
-
-def picture_form() -> PictureForm:
-    """Return how pictures are wanted here."""
-    return _FORM.get()
-
-
-@contextmanager
-def pictures_as(form: PictureForm) -> Iterator[None]:
-    """Have pictures written as somebody wants them.
-
-    Examples
-    --------
-    >>> with pictures_as(PictureForm(legend=False)):
-    ...     picture_form().legend
-    False
-    """
-    token = _FORM.set(form)
-    try:
-        yield
-    finally:
-        _FORM.reset(token)
 
 
 def require_matplotlib() -> None:
@@ -311,6 +274,39 @@ def legend_above(
         columnspacing=1.0,
         borderaxespad=0.2,
     )
+
+
+def legend_over(figure: Figure, handles: Sequence[Any], columns: int) -> None:
+    """Put one legend over all panels of a figure, where no data can be."""
+    if picture_form().legend and handles:
+        figure.legend(
+            handles=handles,
+            loc="outside upper left",
+            ncols=columns,
+            fontsize=SMALL,
+            frameon=False,
+            handlelength=1.8,
+            columnspacing=1.2,
+        )
+
+
+def label_axes(ax: Axes, x: str, y: str) -> None:
+    """Name both axes, and leave the box around them open."""
+    ax.set_xlabel(x, fontsize=MEDIUM)
+    ax.set_ylabel(y, fontsize=MEDIUM)
+    ax.tick_params(which="both", labelsize=SMALL)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def panels(figure: Figure, columns: int, rows: int = 1, **options: Any) -> NDArray[Any]:
+    """Return the axes of panels, rows by columns, lettered where there are several."""
+    axes = figure.subplots(rows, columns, squeeze=False, **options)
+    for letter, ax in zip(ascii_lowercase, axes.flat, strict=False):
+        ax.tick_params(which="both", labelsize=SMALL)
+        ax.spines[["top", "right"]].set_visible(False)
+        if axes.size > 1:
+            ax.set_title(f"({letter})", fontsize=MEDIUM, loc="left")
+    return np.asarray(axes)
 
 
 def label_at_right(ax: Axes, labels: Sequence[tuple[float, str]]) -> None:

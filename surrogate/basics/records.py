@@ -21,6 +21,7 @@ __all__ = [
     "html_of_record",
     "html_table",
     "number",
+    "share",
     "table",
 ]
 
@@ -120,6 +121,17 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 _MOST_WORDS = 4
+
+
+def share(value: float) -> str:
+    """Return a share for people: two thirds as 2/3.
+
+    Examples
+    --------
+    >>> share(2.0 / 3.0), share(0.9)
+    ('2/3', '0.9')
+    """
+    return "2/3" if abs(value - 2.0 / 3.0) < 1e-12 else f"{value:.3g}"
 
 
 def html_table(title: str, rows: Iterable[tuple[str, str, str]]) -> str:

@@ -9,8 +9,9 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
-from surrogate.basics.figures import picture_form, pictures_as
+from surrogate.basics.picture_form import picture_form, pictures_as
 from surrogate.basics.records import UNKNOWN, number, table
+from surrogate.basics.records import share as share_in_words
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.choosing.catalogue import models
 from surrogate.choosing.choice import rounded_up
@@ -141,8 +142,8 @@ def regime_text(record: Record, diameters: bool = False) -> str:
     ]
     model = "Eq. (13)" if record["model"] == SPLIT_MODEL else f"model {record['model']}"
     return table(header, rows) + (
-        f"\nA term dominates where it is {record['threshold']:.3g} of the force of {model} or "
-        "more; there is a transition where none is."
+        f"\nA term dominates where it is {share_in_words(record['threshold'])} of the force of "
+        f"{model} or more; there is a transition where none is."
     )
 
 

@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
-from surrogate.basics.figures import pictures_as
+from surrogate.basics.picture_form import pictures_as
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
 from surrogate.cli.design import add_design_options, run_design
@@ -24,7 +24,12 @@ from surrogate.cli.force import (
 )
 from surrogate.cli.identify import add_identify_options, run_identify
 from surrogate.cli.language import in_options
-from surrogate.cli.pictures import add_diameters_option, add_picture_options, picture_form_of
+from surrogate.cli.pictures import (
+    add_diameters_option,
+    add_picture_options,
+    add_single_panel_option,
+    picture_form_of,
+)
 from surrogate.cli.steady import add_steady_options, run_steady
 from surrogate.contact.shipped import in_use
 from surrogate.errors import ImplausibleInputWarning, WirecutError
@@ -243,6 +248,8 @@ def _parser() -> argparse.ArgumentParser:
             add_diameters_option(command)
         if name in ("force", "steady", "identify", "map"):
             add_picture_options(command)
+        if name == "identify":
+            add_single_panel_option(command)
         command.add_argument(
             "--json",
             action="store_true",

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import argparse
 
-from surrogate.basics.figures import WIDTHS, PictureForm
+from surrogate.basics.figures import WIDTHS
+from surrogate.basics.picture_form import PictureForm
 from surrogate.cli.common import quantity, whole_number
 from surrogate.reading.units import LENGTH
 
-__all__ = ["add_diameters_option", "add_picture_options", "picture_form_of"]
+__all__ = [
+    "add_diameters_option",
+    "add_picture_options",
+    "add_single_panel_option",
+    "picture_form_of",
+]
 
 _INCH = 0.0254
 _NARROWEST, _WIDEST = 0.03, 0.6
@@ -28,6 +34,13 @@ def add_picture_options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--no-legend", action="store_true", help="leave the legend out")
 
 
+def add_single_panel_option(command: argparse.ArgumentParser) -> None:
+    """Add the choice of the first panel alone."""
+    command.add_argument(
+        "--single-panel", action="store_true", help="draw force over radius alone, without misfit"
+    )
+
+
 def add_diameters_option(command: argparse.ArgumentParser) -> None:
     """Add the choice of diameters instead of radii in what is printed and drawn."""
     command.add_argument(
@@ -42,6 +55,7 @@ def picture_form_of(options: argparse.Namespace) -> PictureForm:
         getattr(options, "dpi", 300),
         not getattr(options, "no_legend", False),
         getattr(options, "diameters", False),
+        getattr(options, "single_panel", False),
     )
 
 

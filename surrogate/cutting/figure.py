@@ -24,10 +24,10 @@ from surrogate.basics.figures import (
     new_axes,
     new_figure,
     picture_file,
-    picture_form,
     require_axes,
     save_figure,
 )
+from surrogate.basics.picture_form import picture_form
 from surrogate.choosing.by_name import AUTO, is_auto
 from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel

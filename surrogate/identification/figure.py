@@ -24,10 +24,12 @@ from surrogate.basics.figures import (
     legend_above,
     new_axes,
     new_figure,
+    panels,
     picture_file,
     require_axes,
     save_figure,
 )
+from surrogate.basics.picture_form import picture_form
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
 from surrogate.identification.curves import curve_radii, require_identification
@@ -120,7 +122,11 @@ def _right_end(profile: Profile, top: float) -> float:
 
 def _draw(ax: Axes, profile: Profile, confidence: str) -> list[Any]:
     handles: list[Any] = ax.plot(
-        profile.toughness, profile.misfit, color=BLUE, lw=1.2, label=r"with the best $\tau_w$"
+        profile.toughness,
+        profile.misfit,
+        color=BLUE,
+        lw=1.2,
+        label=r"misfit where $\tau_w$ fits best",
     )
     label = None if np.isnan(profile.threshold) else f"{confidence} limit"
     if label:
@@ -237,7 +243,8 @@ def save_identification(
 ) -> None:
     """Write the picture of `plot_identification` to a file, one journal column wide.
 
-    Below it, that of `plot_profile` where the misfit was followed along the toughness.
+    Below it, that of `plot_profile` where the misfit was followed along the toughness, unless one
+    panel is asked for.
 
     Parameters
     ----------
@@ -268,20 +275,39 @@ def save_identification(
     """
     file = picture_file(file)
     require_identification(identification)
-    panels = 1 if identification.profile is None else 2
-    figure = new_figure((SINGLE_COLUMN[0], panels * SINGLE_COLUMN[1]))
-    if panels == 2:
-        plot_profile(identification, figure.add_subplot(panels, 1, panels))
+    rows = 1 if identification.profile is None or picture_form().single_panel else 2
+    figure = new_figure((SINGLE_COLUMN[0], rows * SINGLE_COLUMN[1]))
+    places = panels(figure, 1, rows)[:, 0]
+    if rows == 2:
+        plot_profile(identification, places[1])
     plot_identification(
         identification,
-        figure.add_subplot(panels, 1, 1),
+        places[0],
         pure_shear_toughness=pure_shear_toughness,
         force_label=force_label,
     )
+    if rows == 2:
+        _letter_beside_legends(places)
     save_figure(figure, file)
 
 
+def _letter_beside_legends(places: Any) -> None:
+    """Write the letters of panels left of their legends, which stand where titles are."""
+    for letter, ax in zip("ab", places, strict=True):
+        ax.set_title("", loc="left")
+        ax.annotate(
+            f"({letter})",
+            (0.0, 1.0),
+            (-0.16, 1.0),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            ha="right",
+            fontsize=MEDIUM,
+        )
+
+
 def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
+    repeated = np.unique(fit.wire_radius).size < fit.wire_radius.size
     return ax.errorbar(
         1e3 * fit.wire_radius,
         fit.force,
@@ -289,8 +315,9 @@ def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
         fmt="s",
         ms=4,
         color=BLUE,
-        mec="white",
-        mew=0.5,
+        mfc="none" if repeated else BLUE,  # so that cuts of one wire do not hide each other
+        mec=BLUE if repeated else "white",
+        mew=0.7 if repeated else 0.5,
         capsize=2,
         elinewidth=0.8,
         zorder=3,

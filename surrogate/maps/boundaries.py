@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import items
+from surrogate.basics.records import share
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm, formula_name
@@ -125,8 +126,8 @@ def _dominance(record: MapRecord, threshold: float) -> Iterator[Boundary]:
         yield Boundary(
             "dominance",
             (one,),
-            f"{plain} = {threshold:.3g} F_ss/T",
-            rf"{symbol}={threshold:.3g}\,F_{{ss}}/T",
+            f"{plain} = {share(threshold)} F_ss/T",
+            rf"{symbol}={share(threshold)}\,F_{{ss}}/T",
             exact,
             lines,
         )
@@ -150,8 +151,8 @@ def _limit(record: MapRecord, limit: str, miss: float) -> Boundary:
             off = np.divide(force, record.force.total) - 1.0
         lines = (*_contours(record, off, -miss), *_contours(record, off, miss))
     name = formula_name(limit)
-    share = f"{100.0 * miss:.3g}"
-    equation, symbol = f"{name} is off by {share} %", rf"\mathrm{{{name}}}\ {share}\,\%"
+    part = f"{100.0 * miss:.3g}"
+    equation, symbol = f"{name} is off by {part} %", rf"\mathrm{{{name}}}\ {part}\,\%"
     return Boundary("limit", (limit,), equation, symbol, exact, lines)
 
 

@@ -14,11 +14,12 @@ from surrogate.basics.figures import (
     LARGEST_SHOWN,
     MEDIUM,
     SMALL,
-    picture_form,
 )
+from surrogate.basics.picture_form import picture_form
+from surrogate.basics.records import number, share
 from surrogate.contact.closed_forms import formula_name
 from surrogate.errors import InputError
-from surrogate.maps.axes import MapAxis
+from surrogate.maps.axes import COORDINATES, MapAxis
 from surrogate.maps.lines import Boundary
 from surrogate.maps.points import MapPoints
 from surrogate.maps.record import MapRecord
@@ -40,6 +41,7 @@ __all__ = [
     "hatch_outside",
     "patch",
     "set_up",
+    "tell_fixed",
 ]
 
 LINES = ("-", (0, (3.5, 1.7)), (0, (4, 1.5, 1, 1.5)))
@@ -82,6 +84,7 @@ def axis_label(axis: MapAxis) -> str:
 
 Array = NDArray[np.float64]
 
+_SMOOTHINGS = 4
 _CONTACT, _HATCH = "#333333", "#909090"
 
 
@@ -131,8 +134,8 @@ def _whole(made: MapRecord, values: Any) -> Array:
 
 def fill_regions(ax: Axes, made: MapRecord) -> None:
     """Fill where a term dominates."""
-    for name, share in made.term_shares.items():
-        values = _whole(made, share)
+    for name, part in made.term_shares.items():
+        values = _whole(made, part)
         if np.any(values >= made.regime.threshold):
             levels = [made.regime.threshold, 2.0]
             ax.contourf(*_mesh(made), values, levels=levels, colors=[FILLS[name]], zorder=0)
@@ -160,7 +163,12 @@ def hatch_outside(ax: Axes, made: MapRecord) -> Iterator[Any]:
     cells = outside[1:, 1:] * outside[1:, :-1] * outside[:-1, 1:] * outside[:-1, :-1]
     if cells.any():  # single nodes, which rounding puts beyond an edge, have no area
         hatched: Any = ax.contourf(
-            *_mesh(made), outside, levels=[0.5, 2.0], colors="none", hatches=["////"], zorder=0.5
+            *_mesh(made),
+            _smooth(outside),
+            levels=[0.5, 2.0],
+            colors="none",
+            hatches=["////"],
+            zorder=0.5,
         )
         one_artist = hasattr(hatched, "set_edgecolor")  # since matplotlib 3.8
         artists = [hatched] if one_artist else hatched.collections
@@ -168,6 +176,38 @@ def hatch_outside(ax: Axes, made: MapRecord) -> Iterator[Any]:
             artist.set_edgecolor(_HATCH)
             artist.set_linewidth(0.0)
         yield patch("outside the domain", "white", hatch="////", ec=_HATCH)
+
+
+def _smooth(field: Array) -> Array:
+    """Return the mean of each node and its neighbours, so that an edge has no steps of nodes."""
+    for axis in (0, 1):
+        for _ in range(_SMOOTHINGS):
+            ends = np.take(field, [0], axis), np.take(field, [-1], axis)
+            padded = np.concatenate([ends[0], field, ends[1]], axis)
+            count = field.shape[axis]
+            field = np.mean([np.take(padded, range(i, i + count), axis) for i in range(3)], axis=0)
+    return field
+
+
+def tell_fixed(ax: Axes, made: MapRecord) -> None:
+    """Write what a map fixes below it, at the right; nothing where nothing is fixed."""
+    words = []
+    for name, value in made.fixed.items():
+        one = COORDINATES[name]
+        factor, unit = SHOWN_UNITS[one.unit]
+        shown_unit = "" if unit == "-" else f" {unit}"
+        words.append(f"${one.symbol}$ = {number(factor * value)}{shown_unit}")
+    ax.annotate(
+        ", ".join(words),
+        (1.0, 0.0),
+        (0.0, -30.0),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="right",
+        va="top",
+        fontsize=SMALL,
+        color=GREY,
+    )
 
 
 def draw_boundaries(
@@ -210,7 +250,7 @@ def _lines(ax: Axes, made: MapRecord, one: Boundary, **style: Any) -> Any:
 
 def _legend_text(one: Boundary, made: MapRecord) -> str:
     if one.kind == "dominance":
-        return rf"a term$={made.regime.threshold:.3g}\,F_{{ss}}/T$"
+        return rf"a term$={share(made.regime.threshold)}\,F_{{ss}}/T$"
     if one.kind == "limit":
         return one.equation.replace("is off by", "off by")
     if one.kind == "contact":

@@ -32,6 +32,7 @@ from surrogate.maps.drawing import (
     hatch_outside,
     patch,
     set_up,
+    tell_fixed,
 )
 from surrogate.maps.labels import NAMES, add_legend, name_regions
 from surrogate.maps.points import MapPoints, places
@@ -135,6 +136,7 @@ def plot_regime_map(
     for i, (one, centre, error) in enumerate(located):
         handles.append(draw_points(ax, made, one, centre, error, POINT_MARKERS[i % 6]))
         marks += bars(centre, error)
+    tell_fixed(ax, made)
     columns = add_legend(ax, _COLUMNS[width], handles + outside)
     if nameless := name_regions(ax, made, drawn, marks, error_of is not None):
         regions = [patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]

@@ -213,7 +213,7 @@ def name_regions(
             fontsize=SMALL,
             style="italic" if name == "transition" else "normal",
             zorder=3,
-            bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.0} if busy else None,
+            path_effects=[_halo()] if busy else None,
         )
         box = text.get_window_extent()
         size = box.width / window.width, box.height / window.height
@@ -232,6 +232,13 @@ def name_regions(
             text.remove()
             nameless.append(str(name))
     return nameless
+
+
+def _halo() -> Any:
+    """Return what keeps words readable on colours and hatches."""
+    from matplotlib.patheffects import withStroke
+
+    return withStroke(linewidth=2.5, foreground="white")
 
 
 def _place_along(

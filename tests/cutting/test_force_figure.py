@@ -8,7 +8,7 @@ pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure
 
 from surrogate import InputError, Scene, cutting_force, plot_force
-from surrogate.basics.figures import PictureForm, pictures_as
+from surrogate.basics.picture_form import PictureForm, pictures_as
 from surrogate.cli.main import main
 from surrogate.cutting.figure import save_force
 

@@ -16,7 +16,7 @@ from fe_training.solver.pictures import (
 )
 from fe_training.solver.record import Outcome, Record
 from fe_training.solver.solve import indentation_cut
-from surrogate.errors import InputError, MissingExtraError
+from surrogate.errors import InputError, WirecutError
 
 
 @pytest.fixture(scope="module")
@@ -200,6 +200,6 @@ def test_nothing_reached_is_an_error(plot, records):
 
 
 def test_without_matplotlib_the_error_names_the_extra(monkeypatch, cut, state):
-    monkeypatch.setattr("fe_training.figure_style.find_spec", lambda name: None)
-    with pytest.raises(MissingExtraError, match=r"pip install 'wirecut\[train\]'"):
+    monkeypatch.setattr("surrogate.basics.extras.find_spec", lambda name: None)
+    with pytest.raises(WirecutError, match=r"pip install 'wirecut\[plot\]'"):
         plot_configuration(cut.body, state)
