@@ -32,6 +32,7 @@ ROOMS = {
         {"markdown", "figure_style"},
         {"mechanics"},
         {"solver"},
+        {"sliding"},
         {"campaign"},
         {"fitting"},
         {"validation"},

@@ -1,0 +1,91 @@
+"""Following a leg: predictor along the tangent, step control."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from fe_training.sliding.equilibrium import Problem, equilibrate
+from fe_training.sliding.leg import Leg
+from fe_training.solver.path import LEAST_DETERMINANT, least_determinant
+from fe_training.solver.predictor import moved_around, share_step, will_touch
+from fe_training.solver.state import NewtonOutcome, State
+
+#: Nodes that may meet or leave the wire in one step, relative to those that touch it.
+_SHARE = 0.15
+_QUICK, _GROWTH = 4, 1.5
+
+
+class SlidingStalledError(RuntimeError):
+    """No acceptable equilibrium was found at the smallest step.
+
+    Parameters
+    ----------
+    share : float
+        How far along the leg it was tried.
+    outcome : NewtonOutcome
+        How the last attempt ended; CONVERGED means that the state found had folded elements.
+    """
+
+    def __init__(self, share: float, outcome: NewtonOutcome) -> None:
+        self.share, self.outcome = share, outcome
+        super().__init__(f"no equilibrium at {share:.6g} of the leg ({outcome.value})")
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """Sizes of steps, as shares of a leg."""
+
+    first: float = 0.05
+    largest: float = 0.25
+    smallest: float = 1e-4
+
+
+def predicted(problem: Problem, state: State, step: float) -> State:
+    """Return the state moved along its tangent."""
+    if state.tangent is None or step == 0.0:
+        return state
+    body, t = problem.body, state.tangent
+    return replace(
+        state,
+        u=moved_around(body, state, step),
+        p=state.p + step * t.p,
+        centre=state.centre + step * t.centre,
+        active=will_touch(body, state, step),
+    )
+
+
+def follow(
+    problem: Problem, state: State, leg: Leg, steps: Steps = Steps(), here: float = 0.0
+) -> Iterator[tuple[float, State]]:
+    """Yield shares and equilibria along a leg, the last of them at its end.
+
+    Parameters
+    ----------
+    problem : Problem
+    state : State
+        The equilibrium at `here`, with its tangent along the leg.
+    leg : Leg
+    steps : Steps
+    here : float
+
+    Raises
+    ------
+    SlidingStalledError
+    """
+    size = state.step or steps.first
+    while here < 1.0:
+        step = min(size, share_step(problem.body, state, 1.0, _SHARE)) if state.tangent else size
+        step = max(step, steps.smallest)
+        there = 1.0 if here + 1.2 * step > 1.0 else here + step
+        reached, outcome = equilibrate(problem, predicted(problem, state, there - here), leg, there)
+        folded = least_determinant(problem.body, reached, problem.body.beyond_notch)
+        if outcome is not NewtonOutcome.CONVERGED or folded < LEAST_DETERMINANT:
+            size = 0.5 * min(size, there - here)
+            if size < steps.smallest:
+                raise SlidingStalledError(there, outcome)
+            continue
+        if reached.iterations <= _QUICK:
+            size = min(size * _GROWTH, steps.largest)
+        state, here = replace(reached, step=size), there
+        yield here, state

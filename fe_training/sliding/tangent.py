@@ -1,0 +1,157 @@
+"""Residual and tangent of the body that slides: the frictionless ones with the shear added.
+
+Touching nodes are turned into a normal and a tangential direction, which points backwards along
+the wire.  The tangential residual ``r_m`` of a node that slides is balanced by the shear force
+``xi N + tau_w l`` against it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fe_training.mechanics.body import Body
+from fe_training.sliding.rows import ChangedRows
+from fe_training.sliding.shear import (
+    Load,
+    angle_slopes,
+    face_lengths,
+    length_operator,
+)
+from fe_training.solver.equilibrium import Linearisation, Residual
+from fe_training.solver.state import Direction, State
+
+Array = NDArray[np.float64]
+
+_AXIS = np.array([1.0, 0.0])
+
+
+class _Shear:
+    """The shear forces of one state, which it adds to the residual of that state."""
+
+    def __init__(self, residual: Residual, load: Load) -> None:
+        body, state = residual.body, residual.state
+        self.load, self.sliders = load, np.flatnonzero(state.active.wire)
+        self.normal_rows = 2 * body.face[self.sliders]
+        self.rows = self.normal_rows + 1
+        self.force = residual.force[self.sliders]
+        self.length = face_lengths(body, state)[self.sliders]
+        self.drag = residual.residual[self.rows].copy()
+        residual.residual[self.rows] += load.on(self.force, self.length)
+
+
+class SlidingResidual(Residual):
+    """Residual at one state and load, in the turned directions of its touching nodes."""
+
+    def __init__(self, body: Body, state: State, load: Load) -> None:
+        super().__init__(body, state)
+        self.shear = _Shear(self, load)
+
+
+class SlidingLinearisation(Linearisation):
+    """Residual and tangent at one state and load."""
+
+    def __init__(self, body: Body, state: State, load: Load) -> None:
+        super().__init__(body, state, _AXIS)
+        self.shear = _Shear(self, load)
+        self._slopes = angle_slopes(body, self.state)
+        self._number = np.cumsum(body.free) - 1
+        self._held = ~body.free[self.shear.rows]  # the tip itself stays in the plane
+        lengths = self._length_slopes()
+        self._length_rate = -(lengths @ np.tile(_AXIS, len(body.nodes)))
+        self._additions = self._added_rows(sp.csr_matrix(lengths @ self._turns()))
+
+    @property
+    def _at(self) -> Array:
+        """Where the rows with additions are among the free unknowns."""
+        return self._number[self.shear.rows[~self._held]]
+
+    def _length_slopes(self) -> sp.csr_matrix:
+        """Return the derivatives of the sliders' lengths to all displacements."""
+        body, count = self.body, len(self.body.face)
+        columns = (2 * body.face[:, None] + np.arange(2)).ravel()
+        entries = (self._slopes.ravel(), (np.repeat(np.arange(count), 2), columns))
+        angles = sp.csr_matrix(entries, shape=(count, body.displacements))
+        return length_operator(count)[self.shear.sliders] @ angles
+
+    def _turns(self) -> sp.csr_matrix:
+        """Return the matrix that makes displacements of turned ones, and takes no pressures."""
+        body, n = self.body, self.body.displacements
+        plain = np.ones(n)
+        plain[2 * self.nodes] = plain[2 * self.nodes + 1] = 0.0
+        i = 2 * self.nodes[:, None] + np.array([0, 0, 1, 1])
+        j = 2 * self.nodes[:, None] + np.array([0, 1, 0, 1])
+        unturned = np.flatnonzero(plain)
+        entries = np.concatenate([self.turn.ravel(), plain[unturned]])
+        places = [np.concatenate([k.ravel(), unturned]) for k in (i, j)]
+        return sp.csr_matrix((entries, tuple(places)), shape=(n, body.size))
+
+    def _added_rows(self, lengths: sp.csr_matrix) -> sp.csr_matrix:
+        """Return what the shear adds to the tangential rows of the free, scaled unknowns."""
+        body, shear = self.body, self.shear
+        xi, wear = shear.load.friction, shear.load.wear
+        added = xi * self.matrix[self._number[shear.normal_rows]] + wear * lengths[:, body.free]
+        # as a node goes round the wire, its normal turns towards the drag
+        bent = xi * shear.drag / self.geo.wire_distance[shear.sliders]
+        own = sp.csr_matrix((bent, (np.arange(len(bent)), self._number[shear.rows])), added.shape)
+        return sp.csr_matrix((added + own)[~self._held])
+
+    def sliding_directions(
+        self, solver: ChangedRows, growth: Load
+    ) -> tuple[Direction, Direction, Direction]:
+        """Return the Newton step, the responses to a unit move of the wire and to the load."""
+        body, shear = self.body, self.shear
+        xi, wear = shear.load.friction, shear.load.wear
+        known, right = np.zeros((body.size, 3)), np.zeros((body.size, 3))
+        known[2 * self.nodes, 0] = -self.geo.gap[self.touching]
+        known[2 * self.nodes, 1] = np.where(self.wire, self.turn[:, :, 0] @ _AXIS, 0.0)
+        turning = self._slopes[shear.sliders] @ _AXIS
+        right[:, 0] = -self.residual
+        right[:, 1] = -self.centre_rate
+        right[shear.rows, 1] -= xi * self.centre_rate[shear.normal_rows]
+        right[shear.rows, 1] -= (shear.force - xi * shear.drag) * turning
+        right[shear.rows, 1] -= wear * self._length_rate
+        right[shear.rows, 2] = -growth.on(shear.force, shear.length)
+        self._factorize(solver)
+        x, reaction = self._slid(solver, known, right)
+        reaction[:, 1] += self.centre_rate
+        moves = (0.0, 1.0, 0.0)
+        newton, move, grow = (
+            self._turned_force(self.direction(x[:, i], reaction[:, i]), moves[i]) for i in range(3)
+        )
+        return newton, move, grow
+
+    def sliding_correction(self, solver: ChangedRows, at: SlidingResidual) -> Direction:
+        """Return the step at a fixed wire from another state with the factors of this one."""
+        known = np.zeros((self.body.size, 1))
+        known[2 * self.nodes, 0] = -at.geo.gap[self.touching]
+        x, reaction = self._slid(solver, known, -at.residual[:, None])
+        return at.direction(x[:, 0], reaction[:, 0])
+
+    def _factorize(self, solver: ChangedRows) -> None:
+        additions = self._additions.copy()
+        additions.data[self.fixed[additions.indices]] = 0.0
+        solver.factorize(self.body.eliminate(self.matrix, self.fixed), self._at, additions)
+
+    def _slid(self, solver: ChangedRows, known: Array, right: Array) -> tuple[Array, Array]:
+        """Return solutions with known normal displacements, and what they do to the residual."""
+        free = self.body.free
+        scale = self.body.scale[free][:, None]
+        known_free = known[free] / scale
+        right_free = right[free] * scale - self.matrix @ known_free
+        right_free[self._at] -= self._additions @ known_free
+        right_free[self.fixed] = known_free[self.fixed]
+        x = solver.solve(right_free)
+        full, reaction = np.zeros(right.shape), np.zeros(right.shape)
+        full[free] = x * scale
+        reaction[free] = self.matrix @ x / scale
+        return full, reaction
+
+    def _turned_force(self, d: Direction, moved: float) -> Direction:
+        """Return a direction with what the drag adds to normal forces as the normals turn."""
+        sliders = self.shear.sliders
+        turned = d.u[self.body.face[sliders]] - moved * _AXIS
+        angle = np.einsum("ij,ij->i", self._slopes[sliders], turned)
+        d.force[sliders] += self.shear.drag * angle
+        return d
