@@ -60,10 +60,10 @@ class SlidingLinearisation(Linearisation):
         self._held = ~body.free[self.shear.rows]  # the tip itself stays in the plane
         lengths = self._length_slopes()
         self._length_rate = -(lengths @ np.tile(_AXIS, len(body.nodes)))
-        self._additions = self._added_rows(sp.csr_matrix(lengths @ self._turns()))
+        self.additions = self._added_rows(sp.csr_matrix(lengths @ self._turns()))
 
     @property
-    def _at(self) -> Array:
+    def places(self) -> Array:
         """Where the rows with additions are among the free unknowns."""
         return self._number[self.shear.rows[~self._held]]
 
@@ -130,9 +130,9 @@ class SlidingLinearisation(Linearisation):
         return at.direction(x[:, 0], reaction[:, 0])
 
     def _factorize(self, solver: ChangedRows) -> None:
-        additions = self._additions.copy()
+        additions = self.additions.copy()
         additions.data[self.fixed[additions.indices]] = 0.0
-        solver.factorize(self.body.eliminate(self.matrix, self.fixed), self._at, additions)
+        solver.factorize(self.body.eliminate(self.matrix, self.fixed), self.places, additions)
 
     def _slid(self, solver: ChangedRows, known: Array, right: Array) -> tuple[Array, Array]:
         """Return solutions with known normal displacements, and what they do to the residual."""
@@ -140,7 +140,7 @@ class SlidingLinearisation(Linearisation):
         scale = self.body.scale[free][:, None]
         known_free = known[free] / scale
         right_free = right[free] * scale - self.matrix @ known_free
-        right_free[self._at] -= self._additions @ known_free
+        right_free[self.places] -= self.additions @ known_free
         right_free[self.fixed] = known_free[self.fixed]
         x = solver.solve(right_free)
         full, reaction = np.zeros(right.shape), np.zeros(right.shape)

@@ -9,8 +9,8 @@ from fe_training.mechanics.body import Body
 from fe_training.mechanics.mesh import MeshSpec, crack_mesh
 from fe_training.solver.equilibrium import (
     Control,
-    NewtonOutcome,
     Linearisation,
+    NewtonOutcome,
     control_value,
     equilibrate,
     undeformed,
