@@ -15,7 +15,7 @@ from fe_training.mechanics.body import Body
 from fe_training.sliding.balance import Support
 from fe_training.sliding.leg import Leg
 from fe_training.sliding.rows import ChangedRows
-from fe_training.sliding.shear import Load
+from fe_training.sliding.shear import NO_LOAD, Load
 from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.equilibrium import RESIDUAL_BOUND, RESIDUAL_GOAL
 from fe_training.solver.state import Direction, NewtonOutcome, State
@@ -150,7 +150,7 @@ class _Newton:
         """Return the Newton step at a fixed wire; keep the responses to the wire and the load."""
         problem, load, growth = self.problem, self.goal.load, self.leg.growth
         newton, self.move, self.grow = lin.sliding_directions(problem.solver, growth)
-        self.per_move = problem.rate(lin.state, load, self.move, 1.0, Load())
+        self.per_move = problem.rate(lin.state, load, self.move, 1.0, NO_LOAD)
         self.per_load = problem.rate(lin.state, load, self.grow, 0.0, growth)
         return newton
 
@@ -165,7 +165,7 @@ class _Newton:
 
     def _stepped(self, state: State, newton: Direction) -> State:
         """Return the state after a step that meets J = g."""
-        drift = self.problem.rate(state, self.goal.load, newton, 0.0, Load())
+        drift = self.problem.rate(state, self.goal.load, newton, 0.0, NO_LOAD)
         change = (self._missing(state) - drift) / self.per_move
         step = newton.plus(self.move, change)
         there = _moved(state, step, 1.0, 0.0)

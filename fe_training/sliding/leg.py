@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fe_training.sliding.shear import Load
+from fe_training.sliding.shear import NO_LOAD, Load
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +22,12 @@ class Point:
     """
 
     g: float
-    load: Load = Load()
+    load: Load = NO_LOAD
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """The way from one point to another, straight in the load and in ln g; 0 at `start`, 1 at `end`."""
+    """The way from one point (0) to another (1), straight in the load and in ln g."""
 
     start: Point
     end: Point

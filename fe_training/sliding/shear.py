@@ -49,6 +49,10 @@ class Load:
         return self.friction * force + self.wear * length
 
 
+#: The frictionless wire.
+NO_LOAD = Load()
+
+
 def length_operator(count: int) -> sp.csr_matrix:
     """Return the matrix that makes lengths of the angles of `count` face nodes."""
     first = np.arange(0, count - 2, 2)

@@ -63,9 +63,9 @@ class SlidingLinearisation(Linearisation):
         self.additions = self._added_rows(sp.csr_matrix(lengths @ self._turns()))
 
     @property
-    def places(self) -> Array:
+    def places(self) -> NDArray[np.int64]:
         """Where the rows with additions are among the free unknowns."""
-        return self._number[self.shear.rows[~self._held]]
+        return np.asarray(self._number[self.shear.rows[~self._held]])
 
     def _length_slopes(self) -> sp.csr_matrix:
         """Return the derivatives of the sliders' lengths to all displacements."""

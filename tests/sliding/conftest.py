@@ -12,7 +12,6 @@ from fe_training.sliding.rows import ChangedRows
 from fe_training.sliding.shear import Load
 from fe_training.solver.cut import Cut as FrictionlessCut
 from fe_training.solver.cut import Settings
-from fe_training.solver.linear_solvers import make_solver
 from fe_training.solver.observe import contact_arc
 from fe_training.solver.solve import indentation_cut
 from fe_training.solver.state import NewtonOutcome
@@ -42,9 +41,8 @@ class Sliding:
             self.problem, replace(state, tangent=None, step=0.0), Leg(point, end), 0.0
         )
         assert outcome is NewtonOutcome.CONVERGED
-        for _, state in follow(self.problem, state, Leg(point, end), Steps(first)):
-            pass
-        return end, state
+        *_, (_, last) = follow(self.problem, state, Leg(point, end), Steps(first))
+        return end, last
 
 
 @pytest.fixture(scope="session")
@@ -53,6 +51,6 @@ def sliding():
     cut = indentation_cut(5.0, COARSE)
     state = cut.at(cut.raised(-2.2), 2.0)
     support = Support(*cut.supports(state)[0])
-    problem = Problem(cut.body, support, ChangedRows(make_solver()))
+    problem = Problem(cut.body, support, ChangedRows())
     start = Point(support.energy_release_rate(cut.body, state, Load()))
     return Sliding(problem, state, start, cut)
