@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.mechanics.body import Body
-from fe_training.sliding.shear import NO_LOAD, Load, face_angles, shear_forces
+from fe_training.sliding.shear import Load, face_angles, shear_forces
 from fe_training.solver.energy_release import domain_integral
 from fe_training.solver.observe import face_stretch
 from fe_training.solver.state import State
@@ -53,6 +53,6 @@ class Support:
     def energy_release_rate(self, body: Body, state: State, load: Load) -> float:
         """Return J/(mu R_w) of the whole body."""
         whole = domain_integral(body, state, self.inner, self.outer)
-        if not state.active.wire.any() or load == NO_LOAD:
+        if not state.active.wire.any() or not load.rubs:
             return whole
         return whole - slip_power(body, state, load, self.on_face(body))

@@ -9,7 +9,7 @@ the angles of the nodes about the wire's centre, which the elements around the t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -35,18 +35,45 @@ class Load:
         Coefficient of friction xi [-].
     wear : float
         Shear stress tau_w of wear, relative to the shear modulus [-].
+    ramp : float
+        Pressure P_0 towards which wear rises from nothing at the ends of the contact, as
+        ``tau_w tanh(P / P_0)`` [mu]; 0 for the full stress wherever there is contact.
     """
 
     friction: float = 0.0
     wear: float = 0.0
+    ramp: float = 0.0
 
     def plus(self, other: Load, factor: float = 1.0) -> Load:
-        """Return this load and a multiple of another one."""
-        return Load(self.friction + factor * other.friction, self.wear + factor * other.wear)
+        """Return this load and a multiple of another one, with the ramp of this one."""
+        friction = self.friction + factor * other.friction
+        return replace(self, friction=friction, wear=self.wear + factor * other.wear)
+
+    def growing(self, growth: Load) -> Load:
+        """Return another load with the ramp of this one."""
+        return replace(growth, ramp=self.ramp)
 
     def on(self, force: Array, length: Array) -> Array:
         """Return the shear forces of nodes with normal forces and lengths [mu R_w]."""
-        return self.friction * force + self.wear * length
+        return self.friction * force + self.wear * length * self._grip(force, length)[0]
+
+    def slopes(self, force: Array, length: Array) -> tuple[Array, Array]:
+        """Return the derivatives of the shear forces to normal forces and to lengths."""
+        grip, rise = self._grip(force, length)
+        pressure = force / length
+        return self.friction + self.wear * rise, self.wear * (grip - rise * pressure)
+
+    def _grip(self, force: Array, length: Array) -> tuple[Array, Array]:
+        """Return the share of tau_w that acts, and its derivative to the pressure."""
+        if self.ramp == 0.0:
+            return np.ones_like(force), np.zeros_like(force)
+        grip = np.tanh(np.maximum(force / length, 0.0) / self.ramp)
+        return grip, (1.0 - grip * grip) / self.ramp
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is any shear."""
+        return self.friction != 0.0 or self.wear != 0.0
 
 
 #: The frictionless wire.
@@ -82,5 +109,6 @@ def angle_slopes(body: Body, state: State) -> Array:
 
 def shear_forces(body: Body, state: State, load: Load) -> Array:
     """Return the shear force that pulls each face node forwards along the face [mu R_w]."""
-    shear = load.on(state.force, face_lengths(body, state))
-    return np.where(state.active.wire, shear, 0.0)
+    wire, shear = state.active.wire, np.zeros(len(body.face))
+    shear[wire] = load.on(state.force[wire], face_lengths(body, state)[wire])
+    return shear

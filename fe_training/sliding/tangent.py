@@ -37,6 +37,7 @@ class _Shear:
         self.rows = self.normal_rows + 1
         self.force = residual.force[self.sliders]
         self.length = face_lengths(body, state)[self.sliders]
+        self.friction, self.wear = load.slopes(self.force, self.length)
         self.drag = residual.residual[self.rows].copy()
         residual.residual[self.rows] += load.on(self.force, self.length)
 
@@ -90,10 +91,10 @@ class SlidingLinearisation(Linearisation):
     def _added_rows(self, lengths: sp.csr_matrix) -> sp.csr_matrix:
         """Return what the shear adds to the tangential rows of the free, scaled unknowns."""
         body, shear = self.body, self.shear
-        xi, wear = shear.load.friction, shear.load.wear
-        added = xi * self.matrix[self._number[shear.normal_rows]] + wear * lengths[:, body.free]
+        normal = self.matrix[self._number[shear.normal_rows]]
+        added = sp.diags(shear.friction) @ normal + sp.diags(shear.wear) @ lengths[:, body.free]
         # as a node goes round the wire, its normal turns towards the drag
-        bent = xi * shear.drag / self.geo.wire_distance[shear.sliders]
+        bent = shear.friction * shear.drag / self.geo.wire_distance[shear.sliders]
         own = sp.csr_matrix((bent, (np.arange(len(bent)), self._number[shear.rows])), added.shape)
         return sp.csr_matrix((added + own)[~self._held])
 
@@ -102,17 +103,16 @@ class SlidingLinearisation(Linearisation):
     ) -> tuple[Direction, Direction, Direction]:
         """Return the Newton step, the responses to a unit move of the wire and to the load."""
         body, shear = self.body, self.shear
-        xi, wear = shear.load.friction, shear.load.wear
         known, right = np.zeros((body.size, 3)), np.zeros((body.size, 3))
         known[2 * self.nodes, 0] = -self.geo.gap[self.touching]
         known[2 * self.nodes, 1] = np.where(self.wire, self.turn[:, :, 0] @ _AXIS, 0.0)
         turning = self._slopes[shear.sliders] @ _AXIS
         right[:, 0] = -self.residual
         right[:, 1] = -self.centre_rate
-        right[shear.rows, 1] -= xi * self.centre_rate[shear.normal_rows]
-        right[shear.rows, 1] -= (shear.force - xi * shear.drag) * turning
-        right[shear.rows, 1] -= wear * self._length_rate
-        right[shear.rows, 2] = -growth.on(shear.force, shear.length)
+        right[shear.rows, 1] -= shear.friction * self.centre_rate[shear.normal_rows]
+        right[shear.rows, 1] -= (shear.force - shear.friction * shear.drag) * turning
+        right[shear.rows, 1] -= shear.wear * self._length_rate
+        right[shear.rows, 2] = -shear.load.growing(growth).on(shear.force, shear.length)
         self._factorize(solver)
         x, reaction = self._slid(solver, known, right)
         reaction[:, 1] += self.centre_rate

@@ -11,7 +11,8 @@ from fe_training.sliding.shear import Load
 from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.state import NewtonOutcome
 
-LOAD = Load(0.2, 0.7)
+LOADS = [Load(0.2, 0.7), Load(0.2, 0.7, ramp=0.2)]
+LOAD = LOADS[0]
 
 
 def moved(lin, du, angle, t):
@@ -26,11 +27,12 @@ def moved(lin, du, angle, t):
     return replace(state, u=u)
 
 
-def test_matrix_is_the_derivative_of_the_sliding_residual(sliding):
+@pytest.mark.parametrize("load", LOADS)
+def test_matrix_is_the_derivative_of_the_sliding_residual(sliding, load):
     """Central differences of fourth order with step 1e-4 leave about 1e-9 of the largest entry."""
     body = sliding.problem.body
-    _, state = sliding.at(LOAD)
-    lin = SlidingLinearisation(body, state, LOAD)
+    _, state = sliding.at(load)
+    lin = SlidingLinearisation(body, state, load)
     rng = np.random.default_rng(3)
     r = np.hypot(*body.nodes.T)[:, None]
     du = 1e-3 * np.minimum(r, 1.0) * rng.normal(size=state.u.shape)
@@ -40,7 +42,7 @@ def test_matrix_is_the_derivative_of_the_sliding_residual(sliding):
 
     def residual(t):
         at = replace(moved(lin, du, angle, t), p=state.p + t * dp)
-        return SlidingResidual(body, at, LOAD).residual
+        return SlidingResidual(body, at, load).residual
 
     h = 1e-3
     slope = (residual(-2 * h) - 8 * residual(-h) + 8 * residual(h) - residual(2 * h)) / (12 * h)
