@@ -16,24 +16,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.mechanics.body import Body
-from fe_training.sliding.shear import Load, face_angles, shear_forces
+from fe_training.sliding.shear import face_angles
+from fe_training.sliding.state import SlidingState
 from fe_training.solver.energy_release import domain_integral
 from fe_training.solver.observe import face_stretch
-from fe_training.solver.state import State
 
 Array = NDArray[np.float64]
 
 
-def slip_power(body: Body, state: State, load: Load, within: Array | float = 1.0) -> float:
+def slip_power(body: Body, state: SlidingState, within: Array | float = 1.0) -> float:
     """Return 2 int q tau lambda ds, both halves counted [mu R_w]; q at the face nodes."""
-    power = shear_forces(body, state, load) * face_stretch(body, state)
+    power = state.shear * face_stretch(body, state)
     return float(2.0 * np.sum(within * power))
 
 
-def steady_force(body: Body, state: State, load: Load) -> float:
+def steady_force(body: Body, state: SlidingState) -> float:
     """Return F_ss, the force along the cut on both halves of the body [mu R_w]."""
     forwards = np.sin(face_angles(body, state))
-    return 2.0 * (state.horizontal_force + float(shear_forces(body, state, load) @ forwards))
+    return 2.0 * (state.horizontal_force + float(state.shear @ forwards))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +50,9 @@ class Support:
         q[1::2] = 0.5 * (q[:-1:2] + q[2::2])
         return np.asarray(q)
 
-    def energy_release_rate(self, body: Body, state: State, load: Load) -> float:
+    def energy_release_rate(self, body: Body, state: SlidingState) -> float:
         """Return J/(mu R_w) of the whole body."""
         whole = domain_integral(body, state, self.inner, self.outer)
-        if not state.active.wire.any() or not load.rubs:
+        if not state.active.wire.any() or not state.shear.any():
             return whole
-        return whole - slip_power(body, state, load, self.on_face(body))
+        return whole - slip_power(body, state, self.on_face(body))

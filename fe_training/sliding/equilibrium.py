@@ -10,19 +10,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fe_training.mechanics import active_set as contact
 from fe_training.mechanics.body import Body
 from fe_training.sliding.balance import Support
+from fe_training.sliding.ends import Ends
 from fe_training.sliding.leg import Leg
 from fe_training.sliding.rows import ChangedRows
-from fe_training.sliding.shear import NO_LOAD, Load
+from fe_training.sliding.state import Slide, SlidingState
 from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.equilibrium import RESIDUAL_BOUND, RESIDUAL_GOAL
-from fe_training.solver.state import Direction, NewtonOutcome, State
+from fe_training.solver.state import NewtonOutcome
 
 Array = NDArray[np.float64]
 
-_AXIS = np.array([1.0, 0.0])
 _DIVERGED = 1e8
 
 #: Relative error allowed in J.
@@ -52,47 +51,34 @@ class Problem:
     support: Support
     solver: ChangedRows
 
-    def energy_release_rate(self, state: State, load: Load) -> float:
+    def energy_release_rate(self, state: SlidingState) -> float:
         """Return J/(mu R_w)."""
-        return self.support.energy_release_rate(self.body, state, load)
+        return self.support.energy_release_rate(self.body, state)
 
-    def rate(self, state: State, load: Load, d: Direction, moved: float, growth: Load) -> float:
-        """Return the change of J along a direction in which the wire moves and the load grows."""
-        step = self._nudge(state, d, moved)
-        ahead, behind = (
-            self.energy_release_rate(_moved(state, d, t, moved), load.plus(growth, t))
-            for t in (step, -step)
-        )
+    def rate(self, state: SlidingState, d: Slide) -> float:
+        """Return the change of J along a change of the state."""
+        step = self._nudge(state, d)
+        ahead, behind = (self.energy_release_rate(d.applied(state, t)) for t in (step, -step))
         return (ahead - behind) / (2.0 * step)
 
-    def _nudge(self, state: State, d: Direction, moved: float) -> float:
-        """Return a small step along a direction, as seen by the elements of the support."""
+    def _nudge(self, state: SlidingState, d: Slide) -> float:
+        """Return a small step along a change, as seen by the elements of the support."""
         body, tip = self.body, self.body.face[0]
         near = np.hypot(*body.nodes.T) < self.support.outer
         places = body.nodes[near] + state.u[near] - body.nodes[tip] - state.u[tip]
         size, pace = np.abs(places).max(), np.abs(d.u[near] - d.u[tip]).max()
-        return float(_NUDGE * min(size / max(pace, 1e-300), 1.0 / max(abs(moved), 1e-300)))
-
-
-def _moved(state: State, d: Direction, step: float, moved: float) -> State:
-    return replace(
-        state,
-        u=state.u + step * d.u,
-        p=state.p + step * d.p,
-        force=state.force + step * d.force,
-        centre=state.centre + step * moved * _AXIS,
-    )
+        return float(_NUDGE * min(size / max(pace, 1e-300), 1.0 / max(abs(d.position), 1e-300)))
 
 
 def equilibrate(
-    problem: Problem, start: State, leg: Leg, share: float, max_iterations: int = 15
-) -> tuple[State, NewtonOutcome]:
+    problem: Problem, start: SlidingState, leg: Leg, share: float, max_iterations: int = 15
+) -> tuple[SlidingState, NewtonOutcome]:
     """Return the equilibrium at a share of a leg.
 
     Parameters
     ----------
     problem : Problem
-    start : State
+    start : SlidingState
         Where the iterations begin.
     leg : Leg
     share : float
@@ -102,7 +88,7 @@ def equilibrate(
 
     Returns
     -------
-    state : State
+    state : SlidingState
         The last iterate; an equilibrium, with its tangent along the leg, only if the outcome says
         so.
     outcome : NewtonOutcome
@@ -117,79 +103,68 @@ class _Newton:
     def __init__(self, problem: Problem, leg: Leg, share: float) -> None:
         self.problem, self.body, self.leg, self.share = problem, problem.body, leg, share
         self.goal = leg.at(share)
+        self.ends = Ends(self.body, self.goal.load)
 
-    def solve(self, state: State, max_iterations: int) -> tuple[State, NewtonOutcome]:
-        seen: set[bytes] = set()
+    def solve(self, state: SlidingState, max_iterations: int) -> tuple[SlidingState, NewtonOutcome]:
         for iteration in range(max_iterations):
             lin = SlidingLinearisation(self.body, state, self.goal.load)
-            state, norm = lin.state, lin.norm()
+            norm = lin.norm()
             if not norm < _DIVERGED:
                 return state, NewtonOutcome.DIVERGED
-            newton = self._directions(lin)
-            there = self._stepped(state, newton)
-            settled = there.active.same(state.active)
-            if not settled and norm < RESIDUAL_BOUND:
-                if there.active.key() in seen:
-                    return state, NewtonOutcome.CYCLED
-                seen.add(there.active.key())
+            there = self._stepped(lin.sliding, self._newton(lin))
+            settled = self.ends.settled(state, there)
             state = there
             if settled:
                 state, residual = self._corrected(lin, state, norm)
                 if residual is not None:
                     done = replace(
                         state,
-                        tangent=self._tangent(lin.state),
+                        tangent=self._tangent(state),
                         control=None,
                         residual=residual,
                         iterations=iteration + 1,
                     )
                     return done, NewtonOutcome.CONVERGED
+            if self.ends.cycled:
+                return state, NewtonOutcome.CYCLED
         return state, NewtonOutcome.STALLED
 
-    def _directions(self, lin: SlidingLinearisation) -> Direction:
+    def _newton(self, lin: SlidingLinearisation) -> Slide:
         """Return the Newton step at a fixed wire; keep the responses to the wire and the load."""
-        problem, load, growth = self.problem, self.goal.load, self.leg.growth
-        newton, self.move, self.grow = lin.sliding_directions(problem.solver, growth)
-        self.per_move = problem.rate(lin.state, load, self.move, 1.0, NO_LOAD)
-        self.per_load = problem.rate(lin.state, load, self.grow, 0.0, growth)
+        newton, self.move, self.grow = lin.slides(self.problem.solver, self.leg.growth)
+        self.per_move = self.problem.rate(lin.sliding, self.move)
+        self.per_load = self.problem.rate(lin.sliding, self.grow)
         return newton
 
-    def _tangent(self, state: State) -> State:
+    def _tangent(self, state: SlidingState) -> SlidingState:
         """Return the derivative of the state to the share of the leg."""
         way = (self.leg.toughening(self.share) - self.per_load) / self.per_move
-        d = self.grow.plus(self.move, way)
-        return State(d.u, d.p, way * _AXIS, state.active, d.force, state.normal)
+        return self.grow.plus(self.move, way).as_tangent(state)
 
-    def _missing(self, state: State) -> float:
-        return self.goal.g - self.problem.energy_release_rate(state, self.goal.load)
+    def _missing(self, state: SlidingState) -> float:
+        return self.goal.g - self.problem.energy_release_rate(state)
 
-    def _stepped(self, state: State, newton: Direction) -> State:
+    def _stepped(self, state: SlidingState, newton: Slide) -> SlidingState:
         """Return the state after a step that meets J = g."""
-        drift = self.problem.rate(state, self.goal.load, newton, 0.0, NO_LOAD)
-        change = (self._missing(state) - drift) / self.per_move
-        step = newton.plus(self.move, change)
-        there = _moved(state, step, 1.0, 0.0)
-        centre = state.centre + change * _AXIS
-        active = contact.updated(self.body, there.u, centre, state.active, there.force)
-        return replace(there, centre=centre, active=active)
+        change = (self._missing(state) - self.problem.rate(state, newton)) / self.per_move
+        return self.ends.updated(newton.plus(self.move, change).applied(state))
 
     def _corrected(
-        self, lin: SlidingLinearisation, state: State, previous: float
-    ) -> tuple[State, float | None]:
+        self, lin: SlidingLinearisation, state: SlidingState, previous: float
+    ) -> tuple[SlidingState, float | None]:
         """Return the state corrected with the factors at hand, and its residual if it converged."""
         for correction in range(_CORRECTIONS):
             at = SlidingResidual(self.body, state, self.goal.load)
             norm = at.norm()
-            met = abs(self._missing(at.state)) < _SAME * self.goal.g
+            met = abs(self._missing(at.sliding)) < _SAME * self.goal.g
             slow = not norm < _CONTRACTION * previous
             bound = RESIDUAL_GOAL if correction else RESIDUAL_BOUND
             if met and (norm < _AIM or (slow and norm < bound)):
-                return at.state, norm
+                return at.sliding, norm
             if slow:
                 return state, None
-            newton = lin.sliding_correction(self.problem.solver, at)
-            there = self._stepped(at.state, newton)
-            settled, state, previous = there.active.same(state.active), there, norm
+            there = self._stepped(at.sliding, lin.correction(self.problem.solver, at))
+            settled, state, previous = self.ends.settled(state, there), there, norm
             if not settled:
                 break
         return state, None

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from fe_training.mechanics.active_set import ActiveSet
 from fe_training.sliding.equilibrium import Problem, equilibrate
 from fe_training.sliding.leg import Leg
+from fe_training.sliding.state import SlidingState
 from fe_training.solver.path import LEAST_DETERMINANT, least_determinant
 from fe_training.solver.predictor import moved_around, share_step, will_touch
-from fe_training.solver.state import NewtonOutcome, State
+from fe_training.solver.state import NewtonOutcome
 
 #: Nodes that may meet or leave the wire in one step, relative to those that touch it.
 _SHARE = 0.15
@@ -41,29 +43,30 @@ class Steps:
     smallest: float = 1e-4
 
 
-def predicted(problem: Problem, state: State, step: float) -> State:
+def predicted(problem: Problem, state: SlidingState, step: float) -> SlidingState:
     """Return the state moved along its tangent."""
     if state.tangent is None or step == 0.0:
         return state
     body, t = problem.body, state.tangent
+    touching = will_touch(body, state, step)
     return replace(
         state,
         u=moved_around(body, state, step),
         p=state.p + step * t.p,
         centre=state.centre + step * t.centre,
-        active=will_touch(body, state, step),
+        active=ActiveSet(touching.wire | state.grazing, touching.plane),
     )
 
 
 def follow(
-    problem: Problem, state: State, leg: Leg, steps: Steps = Steps(), here: float = 0.0
-) -> Iterator[tuple[float, State]]:
+    problem: Problem, state: SlidingState, leg: Leg, steps: Steps = Steps(), here: float = 0.0
+) -> Iterator[tuple[float, SlidingState]]:
     """Yield shares and equilibria along a leg, the last of them at its end.
 
     Parameters
     ----------
     problem : Problem
-    state : State
+    state : SlidingState
         The equilibrium at `here`, with its tangent along the leg.
     leg : Leg
     steps : Steps

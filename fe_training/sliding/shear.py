@@ -70,11 +70,6 @@ class Load:
         grip = np.tanh(np.maximum(force / length, 0.0) / self.ramp)
         return grip, (1.0 - grip * grip) / self.ramp
 
-    @property
-    def rubs(self) -> bool:
-        """Whether there is any shear."""
-        return self.friction != 0.0 or self.wear != 0.0
-
 
 #: The frictionless wire.
 NO_LOAD = Load()
@@ -105,10 +100,3 @@ def angle_slopes(body: Body, state: State) -> Array:
     """Return the derivative of each face node's angle to its place, shape (face nodes, 2)."""
     x, y = state.about(body, body.face).T
     return np.asarray(np.stack([-y, x], axis=1) / (x * x + y * y)[:, None])
-
-
-def shear_forces(body: Body, state: State, load: Load) -> Array:
-    """Return the shear force that pulls each face node forwards along the face [mu R_w]."""
-    wire, shear = state.active.wire, np.zeros(len(body.face))
-    shear[wire] = load.on(state.force[wire], face_lengths(body, state)[wire])
-    return shear

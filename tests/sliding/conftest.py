@@ -9,7 +9,7 @@ from fe_training.sliding.equilibrium import Problem, equilibrate
 from fe_training.sliding.leg import Leg, Point
 from fe_training.sliding.path import Steps, follow
 from fe_training.sliding.rows import ChangedRows
-from fe_training.sliding.shear import Load
+from fe_training.sliding.state import without_shear
 from fe_training.solver.cut import Cut as FrictionlessCut
 from fe_training.solver.cut import Settings
 from fe_training.solver.observe import contact_arc
@@ -49,8 +49,8 @@ class Sliding:
 def sliding():
     """A frictionless equilibrium to begin from."""
     cut = indentation_cut(5.0, COARSE)
-    state = cut.at(cut.raised(-2.2), 2.0)
+    state = without_shear(cut.body, cut.at(cut.raised(-2.2), 2.0))
     support = Support(*cut.supports(state)[0])
     problem = Problem(cut.body, support, ChangedRows())
-    start = Point(support.energy_release_rate(cut.body, state, Load()))
+    start = Point(support.energy_release_rate(cut.body, state))
     return Sliding(problem, state, start, cut)
