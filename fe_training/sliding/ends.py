@@ -17,9 +17,9 @@ from fe_training.mechanics.body import Body
 from fe_training.sliding.shear import Load, face_lengths
 from fe_training.sliding.state import SlidingState
 
-#: Changes of one node in one equilibrium before it counts as grazing, and before Newton's method
-#: counts as going in a circle.
-_FLIPS, _MOST_FLIPS = 2, 8
+#: Changes of one node in one equilibrium from which on it counts as grazing, up to which it may,
+#: and before Newton's method counts as going in a circle.
+_FLIPS, _LAST_FLIPS, _MOST_FLIPS = 2, 6, 9
 
 
 class Ends:
@@ -60,5 +60,6 @@ class Ends:
         self.flips += changed
         if self.load.wear > 0.0:
             between = changed & (self.flips >= _FLIPS) & ~after.plane
+            between &= self.flips <= _LAST_FLIPS
             wire, grazing = wire | between, grazing | between
         return replace(there, active=ActiveSet(wire, after.plane & ~wire), grazing=grazing)

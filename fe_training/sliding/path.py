@@ -58,8 +58,24 @@ def predicted(problem: Problem, state: SlidingState, step: float) -> SlidingStat
     )
 
 
+def attempt(
+    problem: Problem, start: SlidingState, leg: Leg, share: float
+) -> tuple[SlidingState | None, NewtonOutcome]:
+    """Return the equilibrium at a share of a leg, or None if there is none that is sound."""
+    reached, outcome = equilibrate(problem, start, leg, share)
+    if outcome is not NewtonOutcome.CONVERGED:
+        return None, outcome
+    if least_determinant(problem.body, reached, problem.body.beyond_notch) < LEAST_DETERMINANT:
+        return None, outcome
+    return reached, outcome
+
+
 def follow(
-    problem: Problem, state: SlidingState, leg: Leg, steps: Steps = Steps(), here: float = 0.0
+    problem: Problem,
+    state: SlidingState,
+    leg: Leg,
+    steps: Steps | None = None,
+    here: float = 0.0,
 ) -> Iterator[tuple[float, SlidingState]]:
     """Yield shares and equilibria along a leg, the last of them at its end.
 
@@ -76,14 +92,15 @@ def follow(
     ------
     SlidingStalledError
     """
+    steps = steps or Steps()
     size = state.step or steps.first
     while here < 1.0:
         step = min(size, share_step(problem.body, state, 1.0, _SHARE)) if state.tangent else size
         step = max(step, steps.smallest)
         there = 1.0 if here + 1.2 * step > 1.0 else here + step
-        reached, outcome = equilibrate(problem, predicted(problem, state, there - here), leg, there)
-        folded = least_determinant(problem.body, reached, problem.body.beyond_notch)
-        if outcome is not NewtonOutcome.CONVERGED or folded < LEAST_DETERMINANT:
+        start = predicted(problem, state, there - here)
+        reached, outcome = attempt(problem, start, leg, there)
+        if reached is None:
             size = 0.5 * min(size, there - here)
             if size < steps.smallest:
                 raise SlidingStalledError(there, outcome)
