@@ -34,6 +34,7 @@ ROOMS = {
         {"solver"},
         {"sliding"},
         {"campaign"},
+        {"coupled"},
         {"fitting"},
         {"validation"},
         {"verification", "paper"},
