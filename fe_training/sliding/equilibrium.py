@@ -55,11 +55,11 @@ class Problem:
         """Return J/(mu R_w)."""
         return self.support.energy_release_rate(self.body, state)
 
-    def rate(self, state: SlidingState, d: Slide) -> float:
+    def rate(self, state: SlidingState, d: Slide) -> np.float64:
         """Return the change of J along a change of the state."""
         step = self._nudge(state, d)
         ahead, behind = (self.energy_release_rate(d.applied(state, t)) for t in (step, -step))
-        return (ahead - behind) / (2.0 * step)
+        return np.float64(ahead - behind) / (2.0 * step)
 
     def _nudge(self, state: SlidingState, d: Slide) -> float:
         """Return a small step along a change, as seen by the elements of the support."""
