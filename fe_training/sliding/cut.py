@@ -37,11 +37,12 @@ _SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25, 0.125)
 #: The stretch of the face is looked at beyond this many notch radii.
 _NOTCH_REACH = 10.0
 
-#: Current length of the pieces on which it is taken [R_w].
+#: Current length of the pieces on which it is taken, relative to the distance from the tip along
+#: the face where that is below one wire radius [R_w].
 _PIECE = 0.05
 
 #: A path ends rather than take a larger body [unknowns].
-MOST_UNKNOWNS = 200_000
+MOST_UNKNOWNS = 120_000
 
 
 class SlidingEndError(RuntimeError):
@@ -173,14 +174,16 @@ class SlidingCut:
         On the average of short pieces: strains are logarithmic where the shear of wear ends.
         """
         body, state = self.cut.body, self.state
-        beyond = np.flatnonzero(body.along_face > _NOTCH_REACH * body.notch_radius)
-        place = state.about(body, body.face[beyond])
-        before = body.along_face[beyond]
+        beyond = body.along_face > _NOTCH_REACH * body.notch_radius
+        place = state.about(body, body.face)
+        before = body.along_face
         after = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(place, axis=0).T))])
-        whole = after[:-1][after[:-1] < after[-1] - _PIECE]
-        stretch = _PIECE / (np.interp(whole + _PIECE, after, before) - before[: len(whole)])
+        half = 0.5 * _PIECE * np.minimum(after, 1.0)[beyond]
+        back = np.interp(after[beyond] - half, after, before)
+        front = np.interp(after[beyond] + half, after, before)
+        stretch = 2.0 * half / (front - back)
         least = int(np.argmin(stretch))
-        return float(stretch[least]), float(face_angles(body, state)[beyond[least]])
+        return float(stretch[least]), float(face_angles(body, state)[beyond][least])
 
     def record(self, target: Point) -> SlidingRecord:
         """Return the record of the configuration that was reached."""
