@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from fe_training.sliding import tangent
 from fe_training.sliding.balance import Support, slip_power, steady_force
 from fe_training.sliding.shear import Load, face_lengths
+from fe_training.solver.observe import face_stretch
 
 LOADS = [Load(0.2, 0.0), Load(0.0, 0.7), Load(0.2, 0.7)]
 
@@ -61,3 +63,25 @@ def test_two_load_paths_reach_one_state(sliding):
     other = sliding.at(end, begin=sliding.at(Load(0.0, 0.7)))[1]
     assert one.u == pytest.approx(other.u, abs=1e-7 * np.abs(other.u).max())
     assert one.centre == pytest.approx(other.centre, abs=1e-7)
+
+
+def test_wear_per_reference_length_costs_the_arc_alone(sliding, monkeypatch):
+    """Per reference length the slip arc would be int dtheta = theta_2 - theta_1, exactly.
+
+    tau_w acting on ds/lambda has the power tau_w dtheta: the linear response of the same code,
+    with lengths divided by the stretch, must be twice the angle of the contact.
+    """
+    body, state, small = sliding.problem.body, sliding.state, 1e-5
+    stretch = face_stretch(body, state)
+    whole = tangent.face_lengths
+
+    def reference_lengths(body, state):
+        return whole(body, state) / stretch
+
+    monkeypatch.setattr(tangent, "face_lengths", reference_lengths)
+    load = Load(0.0, small)
+    slope = (force(sliding, load) - force(sliding, Load())) / small
+    arc = sliding.arc
+    edges = whole(body, state)[state.active.wire]
+    assert slope == pytest.approx(2.0 * (arc.theta_2 - arc.theta_1), abs=2.0 * edges.max())
+    assert abs(slope - 2.0 * arc.slip_arc) > 4.0 * edges.max()
