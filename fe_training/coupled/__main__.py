@@ -33,12 +33,14 @@ def _parser() -> argparse.ArgumentParser:
     add("--store", metavar="DIR", default="output/coupled", help="finished rows (output/coupled)")
     add("--jobs", type=int, default=1, metavar="N", help="processes (1)")
     add("--bases", type=int, metavar="N", help="only the first N bases")
+    add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
     add("--check", action="store_true", help="tell what is finished, and solve nothing")
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
     from fe_training.campaign.workers import Workers
+    from fe_training.coupled.dataset import collected, write_coupled
     from fe_training.coupled.design import read_design
     from fe_training.coupled.run import run_coupled, waiting
     from fe_training.coupled.store import CoupledStore
@@ -48,6 +50,8 @@ def _run(options: argparse.Namespace) -> int:
     if not options.check:
         with store.opened(design):
             run_coupled(design, store, todo, Workers(options.jobs))
+    if options.write:
+        write_coupled(collected(design, store), options.write)
     outcomes: Counter[str] = Counter()
     for base in design.all_bases():
         rows = store.read(base)

@@ -93,6 +93,7 @@ class CoupledStore:
                 "rows": [_plain(record) for record in records],
             }
         )
+        self.folder.mkdir(parents=True, exist_ok=True)
         digest = hashlib.sha256(content.encode()).hexdigest()
         write_atomically(self._path(base), f"{digest}\n{content}\n".encode())
 

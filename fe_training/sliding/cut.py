@@ -219,6 +219,7 @@ class SlidingCut:
             energy_release_rate_across=tuple(across),
             least_stretch=least,
             least_stretch_angle=angle,
+            position_rate=state.position_rate,
             touches_tip=bool(state.active.wire[0]),
             touches_plane=bool(state.active.plane.any()),
             grazing=int(state.grazing.sum()),

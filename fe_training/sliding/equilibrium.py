@@ -122,6 +122,7 @@ class _Newton:
                         tangent=self._tangent(state),
                         control=None,
                         residual=residual,
+                        position_rate=float(self.per_move),
                         iterations=iteration + 1,
                     )
                     return done, NewtonOutcome.CONVERGED

@@ -21,10 +21,6 @@ class SlidingOutcome(Enum):
         "sliding on a smooth face ends on the way to this load",
         "ask for less friction or wear",
     )
-    LIMIT = (
-        "the load has a maximum on the way to this one: steady sliding ends there",
-        "ask for less friction or wear",
-    )
     STALLED = (
         "the path to the configuration stalled at its smallest step",
         "refine the mesh, or ask for less friction or wear",

@@ -26,10 +26,13 @@ class SlidingState(State):
         Nodes at an end of the contact that touch without pressure.  Wear jumps from 0 to tau_w as
         a node meets the wire; where it would lose the wire with the one and penetrate it with the
         other, it carries what lies between.
+    position_rate : float
+        dJ/dx_w at a constant load [mu]; a load that has a maximum has it where this vanishes.
     """
 
     shear: Array = field(default_factory=lambda: np.empty(0))
     grazing: Flags = field(default_factory=lambda: np.empty(0, dtype=bool))
+    position_rate: float = np.nan
 
 
 def without_shear(body: Body, state: State) -> SlidingState:

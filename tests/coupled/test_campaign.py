@@ -1,12 +1,14 @@
 """The campaign with friction and wear: its design, its store, and going on after an end."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 from fe_training.coupled.__main__ import main
+from fe_training.coupled.dataset import COLUMNS, collected, read_coupled
 from fe_training.coupled.design import read_design
 from fe_training.coupled.run import run_base, waiting
 from fe_training.coupled.store import CoupledStore
@@ -141,3 +143,39 @@ def test_check_tells_the_counts(design, tmp_path, capsys):
         "    27 held out, CONVERGED",
         "    59 of 64 bases are not finished",
     ]
+
+
+def test_the_file_has_every_row_with_its_units(design, tmp_path, capsys):
+    for base in design.all_bases():
+        run_base(base, design.settings, str(tmp_path / "store"), solved)
+    files = [tmp_path / "one.h5", tmp_path / "two.h5"]
+    for path in files:
+        arguments = ["--store", str(tmp_path / "store"), "--check", "--write", str(path)]
+        assert main([str(SHIPPED), *arguments]) == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    data, original = read_coupled(files[0]), collected(design, CoupledStore(tmp_path / "store"))
+    assert len(data) == 135
+    assert data.converged.all()
+    assert data["held_out"].sum() == 27
+    for name in COLUMNS:
+        np.testing.assert_array_equal(data[name], original[name])
+    with h5py.File(files[0]) as file:
+        assert {name: file[name].attrs["unit"] for name in COLUMNS} == {
+            name: unit for name, (unit, _) in COLUMNS.items()
+        }
+
+
+def test_every_number_of_a_record_has_its_column():
+    names = {field.name for field in fields(SlidingRecord)}
+    assert names == set(COLUMNS) - {"base", "held_out"}
+
+
+def test_a_file_that_is_no_data_set_is_refused(tmp_path):
+    path = tmp_path / "other.h5"
+    path.write_text("no HDF5")
+    with pytest.raises(InputError, match=r"other\.h5"):
+        read_coupled(path)
+    with h5py.File(path, "w") as file:
+        file.attrs["schema"] = "another"
+    with pytest.raises(InputError, match="no data set"):
+        read_coupled(path)
