@@ -2,9 +2,9 @@
 
 `surrogate`: basics, reading, scene and equations, contact, choosing, cutting, inference, then
 identification and maps side by side, then cli: each uses only what stands before it. `fe_training`:
-mechanics, solver, campaign, fitting, validation: each uses only what stands before it and
-`surrogate`; verification and paper stand beside the last two and nothing uses them but the
-commands.
+mechanics, solver, sliding, campaign, coupled, fitting, validation: each uses only what stands
+before it and `surrogate`; verification and paper stand beside the last two and nothing uses them
+but the commands.
 """
 
 import ast
@@ -32,7 +32,9 @@ ROOMS = {
         {"markdown", "figure_style"},
         {"mechanics"},
         {"solver"},
+        {"sliding"},
         {"campaign"},
+        {"coupled"},
         {"fitting"},
         {"validation"},
         {"verification", "paper"},

@@ -141,7 +141,7 @@ class Store:
             raise InputError(
                 f"the store {self.folder} cannot be made ({error.strerror}); choose another folder."
             ) from None
-        with _locked(self.folder / "lock", self.folder):
+        with locked(self.folder / "lock", self.folder):
             known = None if adopt else self.design_hash()
             if known not in (None, design.hash):
                 raise InputError(
@@ -310,7 +310,7 @@ def write_atomically(path: Path, content: bytes) -> None:
 
 
 @contextmanager
-def _locked(path: Path, store: Path) -> Iterator[None]:
+def locked(path: Path, store: Path) -> Iterator[None]:
     """Hold the lock of a store; where there is no flock, a file that must not exist beforehand."""
     try:
         descriptor = _lock(path, store)

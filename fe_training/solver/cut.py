@@ -125,7 +125,7 @@ class MeshTooLargeError(PathStalledError):
 Build = Callable[[float, MeshSpec, Settings], Body]
 
 
-def _at_ends(body: Body, state: State) -> NDArray[np.int64]:
+def at_ends(body: Body, state: State) -> NDArray[np.int64]:
     """Return the elements at the ends of the contact, and their neighbours."""
     touching = np.flatnonzero(state.active.wire)
     ends = [i for end in (touching[0], touching[-1]) for i in range(end - _END, end + _END + 1)]
@@ -213,12 +213,12 @@ class Cut:
             except PathStalledError:
                 rescues += 1
                 share = _SPLIT_SHARE ** (1 + rescues)
-                split = self._scattered(state, share * self.settings.scatter)
+                split = self.scattered(state, share * self.settings.scatter)
                 if rescues > _RESCUES or not len(split) or control is Control.HEIGHT:
                     raise
                 state = replace(self._split(state, control, split), step=steps.first)
 
-    def _scattered(self, state: State, least: float) -> NDArray[np.int64]:
+    def scattered(self, state: State, least: float) -> NDArray[np.int64]:
         """Return the elements whose determinant scatters by more, as far as they may be split."""
         scatter = determinant_scatter(self.body, state)
         return np.flatnonzero((scatter > least) & self._splittable())
@@ -227,9 +227,9 @@ class Cut:
         """Return the state on a mesh refined for it, or None if the mesh is fine enough."""
         allowed, adapted = self.settings.scatter, None
         for _ in range(_ROUNDS):
-            if not len(self._scattered(state, allowed)):
+            if not len(self.scattered(state, allowed)):
                 break
-            split = self._scattered(state, _SPLIT_SHARE * allowed)
+            split = self.scattered(state, _SPLIT_SHARE * allowed)
             state = adapted = self._split(state, control, split)
         return adapted
 
@@ -238,7 +238,7 @@ class Cut:
         value = control_value(self.body, state, control)
         body, carried = self.body, state
         for _ in range(times):
-            body, carried = refined(body, carried, _at_ends(body, carried))
+            body, carried = refined(body, carried, at_ends(body, carried))
         return self._settled(body, carried, state, control, value)
 
     def _split(self, state: State, control: Control, elements: NDArray[np.int64]) -> State:

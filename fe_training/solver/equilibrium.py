@@ -54,7 +54,7 @@ def _axis(control: Control) -> Array:
     return np.array([0.0, 1.0]) if control is Control.HEIGHT else np.array([1.0, 0.0])
 
 
-class _Residual:
+class Residual:
     """Residual at one state, in the turned directions of its touching nodes."""
 
     def __init__(self, body: Body, state: State, tangents: bool = False) -> None:
@@ -97,7 +97,7 @@ class _Residual:
         pairs[self.nodes] = np.einsum("nij,nj->ni", self.turn, pairs[self.nodes])
 
 
-class _Linearisation(_Residual):
+class Linearisation(Residual):
     """Residual and tangent at one state."""
 
     def __init__(self, body: Body, state: State, axis: Array) -> None:
@@ -160,7 +160,7 @@ class _Linearisation(_Residual):
         newton, move = (self.direction(x[:, i], reaction[:, i]) for i in range(2))
         return newton, move
 
-    def correction(self, solver: LinearSolver, at: _Residual) -> Direction:
+    def correction(self, solver: LinearSolver, at: Residual) -> Direction:
         """Return the step at a fixed wire from another state with the factors of this one."""
         known = np.zeros((self.body.size, 1))
         known[2 * self.nodes, 0] = -at.geo.gap[self.touching]
@@ -234,7 +234,7 @@ class _Newton:
         body, axis = self.body, self.axis
         seen: set[bytes] = set()
         for iteration in range(max_iterations):
-            lin = _Linearisation(body, state, axis)
+            lin = Linearisation(body, state, axis)
             state, norm = lin.state, lin.norm()
             if not norm < _DIVERGED:
                 return state, NewtonOutcome.DIVERGED
@@ -290,14 +290,14 @@ class _Newton:
         return State(u, state.p + t * step.p, centre, active, force, state.normal), t == 1.0
 
     def _corrected(
-        self, lin: _Linearisation, state: State, tangent: State, previous: float
+        self, lin: Linearisation, state: State, tangent: State, previous: float
     ) -> tuple[State, float | None]:
         """Return the state corrected with the factors at hand, and its residual if it converged.
 
         As long as that converges quickly: a correction takes a sixth of the time of an iteration.
         """
         for correction in range(_CORRECTIONS):
-            at = _Residual(self.body, state)
+            at = Residual(self.body, state)
             norm = at.norm()
             met = abs(self._missed(at.state)) < 1e-9 * max(1.0, abs(self.target))
             slow = not norm < _CONTRACTION * previous

@@ -39,12 +39,12 @@ def predicted(body: Body, state: State, control: Control, target: float) -> Stat
         step *= admissible(body, state, step * t.u, step * t.centre)
         u, active = state.u + step * t.u, state.active
     else:
-        u = _moved_around(body, state, step)
+        u = moved_around(body, state, step)
         share = admissible(body, state, u - state.u, step * t.centre)
         if share < 1.0:
             step *= share
-            u = _moved_around(body, state, step)
-        active = _will_touch(body, state, step)
+            u = moved_around(body, state, step)
+        active = will_touch(body, state, step)
     return replace(
         state,
         u=u,
@@ -70,7 +70,7 @@ def tangent_of(body: Body, state: State, control: Control) -> State | None:
     return replace(t, u=t.u / rate, p=t.p / rate, centre=t.centre / rate, force=t.force / rate)
 
 
-def _will_touch(body: Body, state: State, step: float) -> ActiveSet:
+def will_touch(body: Body, state: State, step: float) -> ActiveSet:
     """Return the nodes that touch the wire a step of the control later."""
     changes = _changes(body, state, float(np.sign(step))) <= abs(step)
     return ActiveSet(state.active.wire ^ changes, state.active.plane)
@@ -112,12 +112,17 @@ def contact_step(body: Body, state: State, control: Control, sign: float, share:
     tangent = tangent_of(body, state, control)
     if tangent is None:
         return np.inf
+    return share_step(body, replace(state, tangent=tangent), sign, share)
+
+
+def share_step(body: Body, state: State, sign: float, share: float) -> float:
+    """Return the step along a state's own tangent in which a share of the touching nodes change."""
     count = int(share * state.active.wire.sum())
-    changes = _changes(body, replace(state, tangent=tangent), sign)
+    changes = _changes(body, state, sign)
     return float(np.partition(changes, count)[count])
 
 
-def _moved_around(body: Body, state: State, step: float) -> Array:
+def moved_around(body: Body, state: State, step: float) -> Array:
     """Return the displacements a step of the control later, in polar coordinates near the wire."""
     t = state.tangent
     assert t is not None

@@ -129,25 +129,54 @@ def _indentation(
 
 def _far_field(alpha: float, g: float, settings: Settings, shift: bool) -> Record:
     """Return the record at a small g: found on a rough mesh, then solved on a fine one."""
-    depth = float(far_field_wedge_from_energy_release_rate(g).distance) - 0.4
-    cut = far_field_cut(alpha, depth, settings)
+    cut = far_field_cut(alpha, _far_depth(g), settings)
     try:
-        for _ in range(_TRIES):
-            rough = cut.rough() or cut
-            state = rough.raised(-depth)
-            wanted = depth + _way_to(rough, state, g)
-            if abs(wanted - depth) < 0.5 * _WINDOW:
-                break
-            depth, cut = wanted, far_field_cut(alpha, wanted, settings)
-        else:
+        reached = far_field_state(cut, g)
+        if reached is None:
             reason = f"g = {g:.6g}: no mesh had the wire in its fine part after {_TRIES} tries"
             return Record(alpha=alpha, outcome=Outcome.NOT_REACHED, target=g, reason=reason)
-        state = _landed(rough, state, g)
-        cut = far_field_cut(alpha, -float(state.centre[0]), settings)
-        state = _landed(cut, cut.taken_over(rough, state), g)
-        return cut.record(cut.sharpened(state, Control.POSITION, _SHARPENINGS), g, shift)
+        cut, state = reached
+        return cut.record(state, g, shift)
     except PathStalledError as error:
         return cut.failure(error, g)
+
+
+def _far_depth(g: float) -> float:
+    return float(far_field_wedge_from_energy_release_rate(g).distance) - 0.4
+
+
+def far_field_state(cut: Cut, g: float) -> tuple[Cut, State] | None:
+    """Return the body and its state at a small g; None where no mesh fits the wire's position."""
+    alpha, settings, depth = cut.body.alpha, cut.settings, _far_depth(g)
+    for _ in range(_TRIES):
+        rough = cut.rough() or cut
+        state = rough.raised(-depth)
+        wanted = depth + _way_to(rough, state, g)
+        if abs(wanted - depth) < 0.5 * _WINDOW:
+            break
+        depth, cut = wanted, far_field_cut(alpha, wanted, settings)
+    else:
+        return None
+    state = _landed(rough, state, g)
+    cut = far_field_cut(alpha, -float(state.centre[0]), settings)
+    state = _landed(cut, cut.taken_over(rough, state), g)
+    return cut, cut.sharpened(state, Control.POSITION, _SHARPENINGS)
+
+
+def frictionless_state(alpha: float, g: float, settings: Settings) -> tuple[Cut, State] | None:
+    """Return a body and its state at J = g on either branch; None where no mesh fits.
+
+    Raises
+    ------
+    PathStalledError
+        If the path to it stalled.
+    """
+    if g >= _SURELY_FAR:
+        cut = indentation_cut(alpha, settings)
+        state = cut.raised(_START)
+        if cut.energy_release_rate(state) <= g:
+            return cut, cut.at(state, g)
+    return far_field_state(far_field_cut(alpha, _far_depth(g), settings), g)
 
 
 def _way_to(cut: Cut, state: State, g: float) -> float:

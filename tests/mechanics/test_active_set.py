@@ -9,8 +9,8 @@ from fe_training.mechanics.body import Body
 from fe_training.mechanics.mesh import MeshSpec, crack_mesh
 from fe_training.solver.equilibrium import (
     Control,
+    Linearisation,
     NewtonOutcome,
-    _Linearisation,
     control_value,
     equilibrate,
     undeformed,
@@ -37,7 +37,7 @@ def test_matrix_is_the_derivative_of_the_residual_along_the_obstacle(cut, touchi
     rng = np.random.default_rng(12)
     if not touching:
         state = undeformed(body, -1.2)
-    lin = _Linearisation(body, state, np.array([1.0, 0.0]))
+    lin = Linearisation(body, state, np.array([1.0, 0.0]))
     assert len(lin.nodes) == touching * state.active.any.sum()
     r = np.hypot(*places(body).T)[:, None]
     du = 1e-3 * np.minimum(r, 1.0) * rng.normal(size=state.u.shape)

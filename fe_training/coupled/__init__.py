@@ -1,0 +1,1 @@
+"""The campaign over toughness, stiffening, friction and wear, and what is made of it."""

@@ -1,0 +1,67 @@
+"""The command `python -m fe_training.coupled`: the campaign with friction and wear."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Sequence
+
+from surrogate.basics.command import OneLineParser, run_command
+
+_EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py"}
+
+_HELP = """\
+Solve the wire in the crack with friction xi and wear tau_w acting on the body, over toughness,
+stiffening, friction and wear, as a design file says.  Every finished row is on the disk at once:
+stop the command whenever you like and give it again, and it goes on where it was."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+
+    def action() -> int:
+        return _run(_parser().parse_args(arguments))
+
+    return run_command("fe_training.coupled", action, _EXTRA, "wirecut[train]")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = OneLineParser(prog="python -m fe_training.coupled", description=_HELP)
+    add = parser.add_argument
+    add("design", help="the design file, such as models/coupled.toml")
+    add("--store", metavar="DIR", default="output/coupled", help="finished rows (output/coupled)")
+    add("--jobs", type=int, default=1, metavar="N", help="processes (1)")
+    add("--bases", type=int, metavar="N", help="only the first N bases")
+    add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
+    add("--check", action="store_true", help="tell what is finished, and solve nothing")
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    from fe_training.campaign.workers import Workers
+    from fe_training.coupled.dataset import collected, write_coupled
+    from fe_training.coupled.design import read_design
+    from fe_training.coupled.run import run_coupled, waiting
+    from fe_training.coupled.store import CoupledStore
+
+    design, store = read_design(options.design), CoupledStore(options.store)
+    todo = waiting(design, store)[: options.bases]
+    if not options.check:
+        with store.opened(design):
+            run_coupled(design, store, todo, Workers(options.jobs))
+    if options.write:
+        write_coupled(collected(design, store), options.write)
+    outcomes: Counter[str] = Counter()
+    for base in design.all_bases():
+        rows = store.read(base)
+        for record in rows.records if rows else ():
+            outcomes[("held out, " if base.held_out else "") + record.outcome.name] += 1
+    lines = [f"{count:6d} {name}" for name, count in sorted(outcomes.items())]
+    lines.append(f"{len(waiting(design, store)):6d} of {design.bases} bases are not finished")
+    sys.stdout.write("\n".join(lines) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

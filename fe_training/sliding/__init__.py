@@ -1,0 +1,1 @@
+"""Steady sliding: the shear tractions of friction and wear act on the body."""

@@ -1,0 +1,58 @@
+"""Asking for configurations that rub: bad input, the frictionless case, and where paths end."""
+
+import re
+
+import numpy as np
+import pytest
+
+from fe_training.sliding.record import CREASE_STRETCH, SlidingOutcome
+from fe_training.sliding.solve import solve, solve_rays
+from fe_training.solver.cut import Settings
+from fe_training.solver.solve import solve as solve_frictionless
+from surrogate.errors import InputError
+
+COARSE = Settings(sectors=14, contact_spacing=0.15, notch_radius=5e-3, outer_radius=1e5)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"friction_coefficient": -0.1},
+        {"friction_coefficient": np.nan},
+        {"friction_coefficient": np.inf},
+        {"relative_wear_strength": -1.0},
+        {"relative_wear_strength": 1e300},
+        {"g": 0.0},
+        {"alpha": 0.5},
+        {"ramp": -1.0},
+    ],
+)
+def test_input_outside_the_range_is_refused_with_its_name(bad):
+    name, value = next(iter(bad.items()))
+    with pytest.raises(InputError, match=re.escape(f"{name} = {value:.6g}")):
+        solve(**{"alpha": 5.0, "g": 2.0, **bad})
+
+
+def test_without_load_it_is_the_frictionless_configuration():
+    record = solve(5.0, g=2.0, settings=COARSE)
+    plain = solve_frictionless(5.0, g=2.0, settings=COARSE)
+    assert record.outcome is SlidingOutcome.CONVERGED
+    assert record.amplification == 1.0
+    assert record.steady_force == pytest.approx(2.0 * plain.horizontal_force, rel=1e-7)
+    assert record.first_arc == pytest.approx(plain.slip_arc, rel=1e-7)
+    assert record.first_load == pytest.approx(plain.slip_load, rel=1e-7)
+
+
+def test_a_way_that_ends_says_why_and_keeps_what_it_reached():
+    """So much wear compresses the face in front of the contact until it creases."""
+    reached, *beyond = solve_rays(5.0, 0.5, [[(0.0, 0.3), (0.0, 20.0), (0.0, 30.0)]], COARSE)
+    assert reached.outcome is SlidingOutcome.CONVERGED
+    assert reached.wear == 0.3
+    for record, wear in zip(beyond, (20.0, 30.0), strict=True):
+        assert record.outcome not in (SlidingOutcome.CONVERGED, SlidingOutcome.OUTSIDE_EVIDENCE)
+        assert record.target_wear == wear
+        assert 0.3 < record.wear < 20.0  # the last equilibrium, not the one asked for
+        assert record.reason
+        assert not record.is_reached
+        # the crease or close to it, whichever is met first on this mesh
+        assert record.least_stretch < CREASE_STRETCH + 0.1
