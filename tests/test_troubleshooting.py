@@ -14,7 +14,6 @@ ANY = "…"
 SAYING = {
     "identification/doubts.py": ("yield",),
     "identification/open_questions.py": ("yield", "sentence"),
-    "identification/slips.py": (),
     "reading/plausibility.py": ("yield",),
     "reading/plateau.py": ("append", "raise"),
     "reading/level.py": ("raise", "return"),
