@@ -137,7 +137,7 @@ class FittedModel(ForceModel):
         return self if law == self.law else replace(self, law=law)  # type: ignore[type-var]
 
     @property
-    def _terms(self) -> tuple[str, str]:
+    def functions_of_law(self) -> tuple[str, str]:
         """Names of the functions that wear and friction follow."""
         return TERMS_OF_LAW[self.law]
 
@@ -165,10 +165,10 @@ class FittedModel(ForceModel):
         return self.limits.alpha_quantity
 
     def arc(self, g: Any, alpha: Any) -> Any:
-        return self.contact((self._terms[0],), g, alpha)[0]
+        return self.contact((self.functions_of_law[0],), g, alpha)[0]
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
-        return self.contact((self._terms[1],), g, alpha)[0]
+        return self.contact((self.functions_of_law[1],), g, alpha)[0]
 
     def distance(self, g: Any, alpha: Any) -> Any:
         return self.contact((_DISTANCE,), g, alpha)[0]
@@ -242,10 +242,10 @@ class FittedModel(ForceModel):
         return where(log_g < low, below, above)
 
     def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(self._terms[0], g, alpha)
+        return self.slopes(self.functions_of_law[0], g, alpha)
 
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(self._terms[1], g, alpha)
+        return self.slopes(self.functions_of_law[1], g, alpha)
 
     def slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
         """Return the derivatives of a function by g and alpha; infinite in g where g is 0."""
@@ -295,14 +295,14 @@ class FittedModel(ForceModel):
         self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
     ) -> tuple[Any, Any]:
         """Return friction and wear at a known g; what has no strength is not evaluated."""
-        names = self._terms[:1] * _some(wear) + self._terms[1:] * _some(xi)
+        names = self.functions_of_law[:1] * _some(wear) + self.functions_of_law[1:] * _some(xi)
         if not names:
             return 0.0, 0.0
         beyond = self.limits.beyond(g, alpha)
         values = dict(zip(names, self.contact(names, g, alpha))) if beyond is False else {}  # noqa: B905
         friction = worn = 0.0
-        if self._terms[1] in names:
-            load = values.get(self._terms[1])
+        if self.functions_of_law[1] in names:
+            load = values.get(self.functions_of_law[1])
             if load is None:
                 load = self.normal_load(where(beyond, self.limits.highest_g(alpha), g), alpha)
             friction = 2.0 * product(radius, xi, mu) * load
@@ -310,8 +310,8 @@ class FittedModel(ForceModel):
                 far = self._friction_beyond(load, mu, gamma, radius, xi, alpha)
                 friction = where(beyond, far, friction)
             friction = _where_not_zero(xi, friction)
-        if self._terms[0] in names:
-            arc = values.get(self._terms[0])
+        if self.functions_of_law[0] in names:
+            arc = values.get(self.functions_of_law[0])
             arc = self.arc(g, alpha) if arc is None else arc
             worn = 2.0 * product(wear, radius, _where_not_zero(wear, arc))
         return friction, worn
@@ -322,7 +322,7 @@ class FittedModel(ForceModel):
         """Return 2 R_w xi mu B where g is high, which is 2 xi Gamma_o B/g; B* under "slip"."""
         high = self.limits.highest_g(alpha)
         log_alpha = self.limits.clamped(0.0, log(alpha))[1]
-        excess = log_touch(self.limits.growth[self._terms[1]], log_alpha) - 1.0
+        excess = log_touch(self.limits.growth[self.functions_of_law[1]], log_alpha) - 1.0
         with np.errstate(all="ignore"):
             log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
             power = exp(excess * (log_g - self.limits.log_highest(log_alpha)))
