@@ -11,6 +11,7 @@ from contextlib import nullcontext
 from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
+from surrogate.cli import export as cli_export
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
 from surrogate.cli.force import (
@@ -48,6 +49,7 @@ _DESCRIPTIONS = {
     "identify": "Cleavage toughness Gamma_o and wear strength tau_w from forces of several wires.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
+    "export": cli_export.DESCRIPTION,
     "models": "The force models that --model accepts.",
     "doctor": "What is installed, whether the shipped files are whole, and a self-test.",
 }
@@ -104,6 +106,7 @@ example:
     --wear-strength 7.75kPa --wire-diameter 50um 0.5mm
 """,
     "map": f"{_UNITS}\n\n{cli_map.EXAMPLES}",
+    "export": f"{_UNITS}\n\n{cli_export.EXAMPLES}",
     "models": """\
 example:
   wirecut models --json
@@ -195,6 +198,7 @@ def _parser() -> argparse.ArgumentParser:
         ("identify", add_identify_options, run_identify),
         ("regime", add_regime_options, run_regime),
         ("map", lambda command: cli_map.add_options(command), run_map),
+        ("export", cli_export.add_export_options, cli_export.run_export),
         ("models", lambda command: None, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):

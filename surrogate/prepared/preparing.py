@@ -110,7 +110,7 @@ def prepare(
 def _box(fixed: Any, varying: Any, ranges: Any) -> Ranges:
     """Return the ends of all six quantities."""
     names = items("varying", varying, "('wire_radius',)")
-    unknown = [name for name in names if name not in NAMES]
+    unknown = [name for name in names if not isinstance(name, str) or name not in NAMES]
     if unknown or not names or len(set(names)) < len(names):
         raise InputError(
             f"varying must name different quantities of a scene, but is {names!r}; choose among "
@@ -188,8 +188,8 @@ def _named(model: object, box: Ranges, terms: list[str]) -> tuple[tuple[str, ...
         return tuple(terms), FORCE_MODELS[FREE], error
     if not isinstance(chosen, ClosedForm):
         raise InputError(
-            f"a force must be prepared by the table or a closed form without a power, but not by "
-            f"{chosen.name!r}; choose model='auto', 'table' or 'eq13'."
+            "model must be one that a force can be prepared by, but "
+            f"{chosen.name!r} is neither the table nor a closed form without a power; choose model='auto', 'table' or 'eq13'."
         )
     error = force_error(known, box, dict.fromkeys(terms, FREE), functions) if known else math.nan
     return (), chosen, error if error < math.inf else math.nan

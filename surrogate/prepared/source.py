@@ -13,17 +13,15 @@ from typing import Any
 import numpy as np
 
 from surrogate.choosing.candidates import candidates
-from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
-from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
-from surrogate.prepared.proof import force_error
+from surrogate.prepared.plan import GAMMA, MU, RADIUS, Plan
 from surrogate.prepared.statements import arrays_of, cases_of, force_statements
 from surrogate.prepared.table_source import table_part
-from surrogate.scene import NAMES, QUANTITIES
+from surrogate.scene import QUANTITIES
 from surrogate.version import __version__
 
-__all__ = ["LANGUAGES", "source_of", "whole_table"]
+__all__ = ["LANGUAGES", "source_of"]
 
 LANGUAGES = tuple(DIALECTS)
 TOLERANCE = 1e-12
@@ -72,46 +70,6 @@ def source_of(force: Any, language: str) -> str:
     for key, value in parts.items():
         text = text.replace(f"<<{key}>>", value)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
-
-
-def whole_table(language: str) -> str:
-    """Return the table itself as a program: a force of all six quantities of a scene.
-
-    Raises
-    ------
-    InputError
-        If there is no such language, or no table.
-
-    Examples
-    --------
-    >>> whole_table("python").count("def arc(g, alpha)")
-    1
-    """
-    from surrogate.prepared.function import ForceFunction
-
-    known, terms = candidates(), ("arc", "normal_load")
-    ranges = {**_WIDE, ALPHA: known.limits.alpha}
-    table: Any = known.fitted.models["table"]
-    form: Any = FORCE_MODELS["eq13"]
-    told = known.fitted.about.get("provenance", {})
-    data = {
-        "source": "table of finite elements",
-        "data_date": str(told.get("data_date", "unknown")),
-    }
-    box = {**ranges, GAMMA: known.limits.g, MU: (1.0, 1.0), RADIUS: (1.0, 1.0)}
-    functions = {term: term for term in terms}
-    error = force_error(known, box, dict.fromkeys(terms, "table"), functions)
-    return source_of(ForceFunction(Plan(NAMES, ranges, form, table, terms), error, data), language)
-
-
-_WIDE = {
-    MU: (1e-3, 1e12),
-    GAMMA: (1e-9, 1e9),
-    RADIUS: (1e-9, 1e3),
-    "friction_coefficient": (0.0, 1e6),
-    "wear_strength": (0.0, 1e12),
-}
-"""Ranges of all but alpha that no product leaves the range of numbers in."""
 
 
 def _about(force: Any, dialect: Dialect) -> list[str]:

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from surrogate import InputError, Scene, prepare
-from surrogate.prepared.source import LANGUAGES, whole_table
+from surrogate.prepared.source import LANGUAGES
+from surrogate.prepared.whole_table import whole_table
 
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
 BOX = {

@@ -88,6 +88,10 @@ OWN = {
     "read_material": {"path": str(model_file("paam-material.json"))},
     "load_models": {"path": None},
     "contact_functions": {"rtol": None},
+    "prepare": {
+        **{"fixed": Scene(**SCENE), "varying": ("wire_radius",), "rtol": None},
+        "ranges": {"wire_radius": (1e-4, 1e-3)},
+    },
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
     "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},
 }
@@ -132,6 +136,7 @@ ALIASES = {
     "read_records": ("file", "record", "column"),
     "steady_force": ("record", "displacement", "force", "range", "plateau"),
     "read_material": ("file",),
+    "prepare": ("fixed", "range", "model must be one that a force can be prepared by"),
     "plot_regime_map": ("map", "points", "limit", "width"),
     "plot_identification": ("identification",),
 }
