@@ -59,6 +59,8 @@ if TYPE_CHECKING:
     from surrogate.maps.figure import plot_regime_map
     from surrogate.maps.make import RegimeMap, regime_map
     from surrogate.maps.points import MapPoints
+    from surrogate.prepared.function import ForceFunction
+    from surrogate.prepared.preparing import prepare
     from surrogate.reading.material import Material, read_material
     from surrogate.reading.measurements import Measurements, read_measurements
     from surrogate.reading.plateau import SteadyForce, steady_force
@@ -73,6 +75,7 @@ __all__ = [
     "CuttingForce",
     "Design",
     "DomainError",
+    "ForceFunction",
     "ForceGradient",
     "Identification",
     "ImplausibleInputWarning",
@@ -112,6 +115,7 @@ __all__ = [
     "plot_regime_map",
     "power_law_dissipation",
     "power_law_exponent",
+    "prepare",
     "propagate",
     "read_material",
     "read_measurements",
@@ -147,6 +151,8 @@ _MODULES = {
     "maps.figure": "plot_regime_map",
     "maps.make": "RegimeMap regime_map",
     "maps.points": "MapPoints",
+    "prepared.function": "ForceFunction",
+    "prepared.preparing": "prepare",
     "reading.material": "Material read_material",
     "reading.measurements": "Measurements read_measurements",
     "reading.plateau": "SteadyForce steady_force",

@@ -135,9 +135,9 @@ class AutomaticTerms:
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
+        if type(number) is int:
+            return self.known.names[number]
         names = np.array(self.known.names)
-        if np.ndim(number) == 0:
-            return str(names[number])
         if number.size and number.min() == number.max():
             return np.broadcast_to(names[number.flat[0]], number.shape)
         return names[number]

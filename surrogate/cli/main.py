@@ -12,6 +12,7 @@ from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
 from surrogate.basics.picture_form import pictures_as
+from surrogate.cli import export as cli_export
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
 from surrogate.cli.design import add_design_options, run_design
@@ -57,6 +58,7 @@ _DESCRIPTIONS = {
     "design": "Which wires to buy and how often to cut with each, and how exact that will be.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
+    "export": cli_export.DESCRIPTION,
     "models": "The force models that --model accepts.",
     "doctor": "What is installed, whether the shipped files are whole, and a self-test.",
 }
@@ -143,6 +145,7 @@ example:
     --wear-strength 7.75kPa --wire-diameter 50um 0.5mm
 """,
     "map": f"{_UNITS}\n\n{cli_map.EXAMPLES}",
+    "export": f"{_UNITS}\n\n{cli_export.EXAMPLES}",
     "models": """\
 example:
   wirecut models --json
@@ -239,6 +242,7 @@ def _parser() -> argparse.ArgumentParser:
         ("design", add_design_options, run_design),
         ("regime", add_regime_options, run_regime),
         ("map", lambda command: cli_map.add_options(command), run_map),
+        ("export", cli_export.add_export_options, cli_export.run_export),
         ("models", lambda command: None, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):

@@ -89,6 +89,10 @@ OWN = {
     "load_models": {"path": None},
     "contact_functions": {"rtol": None},
     "plot_force": {"ax": None, "thickness": None},
+    "prepare": {
+        **{"fixed": Scene(**SCENE), "varying": ("wire_radius",), "rtol": None},
+        "ranges": {"wire_radius": (1e-4, 1e-3)},
+    },
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
     "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},
 }
@@ -134,6 +138,7 @@ ALIASES = {
     "steady_force": ("record", "displacement", "force", "range", "plateau"),
     "read_material": ("file",),
     "plot_force": ("force", "dimensionless"),
+    "prepare": ("fixed", "range", "model must be one that a force can be prepared by"),
     "plot_regime_map": ("map", "points", "limit", "width"),
     "plot_identification": ("identification",),
 }

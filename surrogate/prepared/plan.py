@@ -1,0 +1,232 @@
+"""What a prepared force does at a call, and how: floats and blocks of numbers through one plan.
+
+    F_ss/T = Gamma_o + 2 R_w [tau_w A + xi mu B],
+
+with A and B each of Eq. (13) (A = 2, B = 2 + g/2), or of another closed form, or of the table. At
+one alpha the table is a `Line`; where also tau_w, xi and mu are fixed, both lines are one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from surrogate.basics.elementwise import log
+from surrogate.contact.closed_forms import ClosedForm
+from surrogate.contact.table import TableModel
+from surrogate.prepared.line import Line, line_of, summed
+from surrogate.prepared.proof import g_range
+from surrogate.scene import NAMES
+
+__all__ = ["ALPHA", "ARC", "GAMMA", "LOAD", "MU", "RADIUS", "WEAR", "XI", "Plan"]
+
+ARC, LOAD = "arc", "normal_load"
+ROUNDING = 1e-9
+MU, GAMMA, RADIUS, XI, WEAR, ALPHA = NAMES
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """How a force is evaluated.
+
+    Parameters
+    ----------
+    varying : tuple of str
+        Names of the quantities that vary.
+    ranges : mapping of str to tuple of float
+        The ends of all six quantities.
+    form : ClosedForm
+        What gives the terms that the table does not.
+    table : TableModel or None
+        What gives the terms named by `of_table`.
+    of_table : tuple of str
+        "arc" and "normal_load", as far as the table gives them.
+    """
+
+    varying: tuple[str, ...]
+    ranges: Mapping[str, tuple[float, float]]
+    form: ClosedForm
+    table: TableModel | None = field(repr=False)
+    of_table: tuple[str, ...]
+
+    @cached_property
+    def fixed(self) -> dict[str, float]:
+        """The quantities that do not vary."""
+        return {name: self.ranges[name][0] for name in NAMES if name not in self.varying}
+
+    @cached_property
+    def lines(self) -> dict[str, Line]:
+        """The functions of the table at the one alpha; none where alpha varies."""
+        if self.table is None or ALPHA not in self.fixed:
+            return {}
+        cells, row = self.table.table, log(self.fixed[ALPHA])
+        names = dict(zip((ARC, LOAD), self.table.rubbing, strict=True))
+        return {term: line_of(cells, names[term], row) for term in self.of_table}
+
+    @cached_property
+    def one_line(self) -> Line | None:
+        """2 (tau_w A + xi mu B) of the terms that the table gives, where it needs ln g alone."""
+        if not self.lines or {MU, XI, WEAR} & set(self.varying):
+            return None
+        factors = {
+            ARC: 2.0 * self.fixed[WEAR],
+            LOAD: 2.0 * self.fixed[XI] * self.fixed[MU],
+        }
+        return summed(self.lines, factors)
+
+    @cached_property
+    def one_number(self) -> Callable[[float], float]:
+        """The force of the one quantity that varies, as a function of a float."""
+        (name,) = self.varying
+        if self.straight:
+            return self._of_radius()
+        fixed = self.fixed
+        return lambda value: float(self.of(**fixed, **{name: value}))
+
+    @property
+    def straight(self) -> bool:
+        """Whether a call is no more than one logarithm and one cubic: of the radius alone."""
+        return self.varying == (RADIUS,) and self.one_line is not None
+
+    @property
+    def _straight(self) -> tuple[Line, float, float, float]:
+        """The line, ln(Gamma_o/mu) - ln g_touch, and the force without the line and its slope."""
+        assert self.one_line is not None
+        mu, gamma = self.fixed[MU], self.fixed[GAMMA]
+        constant = gamma + self._free(mu, gamma, 0.0)
+        start = float(np.log(gamma / mu)) - self.one_line.touch
+        return self.one_line, start, constant, self.free_slope
+
+    def _of_radius(self) -> Callable[[float], float]:
+        line, start, constant, slope = self._straight
+        rows, before, after, short, ln = line.rows, line.before, line.after, line.short, np.log
+
+        def force(radius: float) -> float:
+            x = start - float(ln(radius))
+            t = (before if x < 0.0 else after) * x + short
+            piece = int(t)
+            t -= piece
+            a, b, c, d = rows[piece]
+            return constant + radius * (slope + (a + t * (b + t * (c + t * d))))
+
+        return force
+
+    def of_radii(self, radius: Any) -> Any:
+        """Do the same as the function of a float for a block of radii."""
+        line, start, constant, slope = self._straight
+        x = log(radius)
+        np.subtract(start, x, out=x)
+        result = line.values(*line.place(x, self._side))
+        result += slope
+        result *= radius
+        result += constant
+        return result
+
+    @cached_property
+    def _side(self) -> int:
+        """-1 or 1 where the whole range is short of or past the touch, else 0."""
+        assert self.one_line is not None
+        first, last = (g * float(np.exp(-self.one_line.touch)) for g in self.g_ends())
+        return -1 if last < 1.0 - ROUNDING else 1 if first > 1.0 + ROUNDING else 0
+
+    @property
+    def free_slope(self) -> float:
+        """dF/dR_w [N/m^2] of the terms that the table does not give."""
+        mu, gamma = self.fixed[MU], self.ranges[GAMMA][0]
+        return self._free(mu, gamma, 1.0) - self._free(mu, gamma, 0.0)
+
+    @property
+    def free_rise(self) -> float:
+        """dF/dGamma_o [-] of the cleavage and the terms that the table does not give."""
+        return 1.0 + self._free(self.fixed[MU], 1.0, 0.0)
+
+    def g_ends(self) -> tuple[float, float]:
+        """Return the ends of g."""
+        return g_range(self.ranges)
+
+    def gradient(self, **values: Any) -> dict[str, Any]:
+        """Return the derivatives of the force by all six quantities, by their names."""
+        six = [values[name] for name in NAMES]
+        plain, table = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0] for _ in range(2))
+        if len(self.of_table) < 2:
+            plain = self._part(self.form, six, [t for t in (ARC, LOAD) if t not in self.of_table])
+        if self.table is not None:
+            table = self._part(self.table, six, list(self.of_table))
+        slopes = dict(zip(NAMES, (a + b for a, b in zip(plain, table, strict=True)), strict=True))
+        return slopes | {GAMMA: slopes[GAMMA] - 1.0}
+
+    def _part(self, model: Any, six: list[Any], terms: list[str]) -> list[Any]:
+        """Return the derivatives of the cleavage and of some terms by one model."""
+        mu, gamma, radius, xi, wear, alpha = six
+        slopes = list(
+            model.gradient(
+                mu,
+                gamma,
+                radius,
+                xi if LOAD in terms else 0.0,
+                wear if ARC in terms else 0.0,
+                alpha,
+            )
+        )
+        slopes[3] = slopes[3] if LOAD in terms else 0.0
+        slopes[4] = slopes[4] if ARC in terms else 0.0
+        return slopes
+
+    def _free(self, mu: float, gamma: float, radius: float) -> float:
+        xi, wear = self.fixed[XI], self.fixed[WEAR]
+        friction, worn = self.form.terms(mu, gamma, radius, xi, wear, 2.0)
+        friction = 0.0 if LOAD in self.of_table else friction
+        return float(friction + (0.0 if ARC in self.of_table else worn))
+
+    def of(self, **values: Any) -> Any:
+        """Return the force of the six quantities, floats or arrays of one shape."""
+        mu, gamma, radius = values[MU], values[GAMMA], values[RADIUS]
+        xi, wear, alpha = values[XI], values[WEAR], values[ALPHA]
+        friction, worn = self.form.terms(mu, gamma, radius, xi, wear, alpha)
+        total = gamma
+        if self.of_table:
+            log_g = log(gamma / (mu * radius))
+            if self.one_line is not None:
+                value = self._line(self.one_line, log_g)
+                total = total + radius * value
+            else:
+                arc, load = self._functions(log_g, alpha)
+                if ARC in self.of_table:
+                    total = total + 2.0 * (wear * radius) * arc
+                if LOAD in self.of_table:
+                    total = total + 2.0 * (radius * (xi * mu)) * load
+        if LOAD not in self.of_table:
+            total = total + friction
+        if ARC not in self.of_table:
+            total = total + worn
+        return total
+
+    def _functions(self, log_g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return A and B, as far as the table gives them."""
+        assert self.table is not None
+        found: dict[str, Any] = {}
+        if not self.lines:
+            names = dict(zip((ARC, LOAD), self.table.rubbing, strict=True))
+            wanted = [names[term] for term in self.of_table]
+            row = log(alpha)
+            if isinstance(log_g, np.ndarray) or isinstance(row, np.ndarray):
+                log_g, row = np.broadcast_arrays(log_g, row)
+            _, values = self.table.table.at(wanted, log_g, row)
+            found = dict(zip(self.of_table, values, strict=True))
+        elif isinstance(log_g, np.ndarray):
+            first = next(iter(self.lines.values()))
+            place = first.place(log_g - first.touch)
+            found = {term: line.values(*place) for term, line in self.lines.items()}
+        else:
+            found = {term: line.number(log_g) for term, line in self.lines.items()}
+        return found.get(ARC), found.get(LOAD)
+
+    @staticmethod
+    def _line(line: Line, log_g: Any) -> Any:
+        if isinstance(log_g, np.ndarray):
+            return line.values(*line.place(log_g - line.touch))
+        return line.number(log_g)

@@ -1,0 +1,246 @@
+"""Preparing a force: law, model, terms and coefficients decided once and proven over ranges."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from surrogate.basics.checks import RTOL, items, mapping, one_number
+from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.candidates import FREE, TERMS, candidates
+from surrogate.choosing.choice import rounded_up
+from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
+from surrogate.contact.table import TableModel
+from surrogate.errors import AccuracyError, DomainError, InputError
+from surrogate.prepared.function import ForceFunction
+from surrogate.prepared.plan import Plan
+from surrogate.prepared.proof import force_error, g_range, lowest_of_highest
+from surrogate.scene import NAMES, QUANTITIES, Scene
+
+__all__ = ["prepare"]
+
+Ranges = dict[str, tuple[float, float]]
+DEFAULT_RTOL = 0.02
+_DEFAULTS = {"friction_coefficient": 0.0, "wear_strength": 0.0, "stiffening_exponent": 2.0}
+_STRENGTHS = {"arc": "wear_strength", "normal_load": "friction_coefficient"}
+_EXAMPLE = "{'wire_radius': (1e-4, 1e-3)}"
+
+
+def prepare(
+    fixed: Scene | Mapping[str, float],
+    varying: Sequence[str] = ("wire_radius",),
+    ranges: Mapping[str, tuple[float, float]] | None = None,
+    model: str = AUTO,
+    rtol: float | None = None,
+) -> ForceFunction:
+    """Return the force as a function of the quantities that vary, decided and proven once.
+
+    Model, terms and coefficients are settled here, for all scenes of the ranges. A call does only
+    what is left: one cubic of ln g where a single quantity varies.
+
+    Parameters
+    ----------
+    fixed : Scene or mapping of str to float
+        The quantities that do not vary, in SI units: a scene of numbers, whose values of what
+        varies are not looked at, or a mapping of their names, as `Scene` has them.
+    varying : sequence of str, default ("wire_radius",)
+        Names of the quantities that vary, in the order in which calls take them.
+    ranges : mapping of str to tuple of float
+        The lowest and the highest value of each of them, in SI units.
+    model : str, default "auto"
+        "auto" for what is cheapest and has a proven error of at most `rtol` all over the ranges,
+        term by term; "table"; "eq13", "high-toughness", "low-toughness" or "friction-free".
+    rtol : float, optional
+        Largest relative error of the force that will do [-]; None for any, which with "auto" is
+        0.02.
+
+    Returns
+    -------
+    ForceFunction
+        The function, with its range, bound of error, derivative and inverse.
+
+    Raises
+    ------
+    InputError
+        If a quantity is missing, unknown, out of range or no number, or the model cannot be
+        prepared.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If the ranges leave the domain of the table and it is needed.
+    AccuracyError
+        If `rtol` is not met all over the ranges; the message names the best bound.
+
+    Notes
+    -----
+    Range of validity: the ranges. The bound of error holds all over them: it is made of the
+    measured bounds of all cells of (g, alpha) that they touch, not of samples.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (10), (12), (13), (15) and (S2).
+
+    Examples
+    --------
+    >>> gel = Scene(685.0, 1.6, 0.25e-3, friction_coefficient=0.0, wear_strength=7750.0)
+    >>> force = prepare(gel, ranges={"wire_radius": (1e-4, 1e-3)})
+    >>> force.monotonic, force.terms, force.relative_error <= 0.02
+    ('rising', {'wear': 'table'}, True)
+    >>> print(f"{1e3 * force.radius_for(7.0):.3f} mm")
+    0.244 mm
+    """
+    box = _box(fixed, varying, ranges)
+    names = tuple(varying)
+    tolerance = None if rtol is None else one_number(RTOL, rtol)
+    terms = [term for term in TERMS if box[_STRENGTHS[term]][1] > 0.0]
+    if is_auto(model):
+        of_table, error = _cheapest(box, terms, DEFAULT_RTOL if tolerance is None else tolerance)
+        form: Any = FORCE_MODELS[FREE]
+    else:
+        of_table, form, error = _named(model, box, terms)
+        _require(error, tolerance, repr(model))
+    if of_table:
+        _require_domain(box)
+    table: Any = candidates().fitted.models["table"] if of_table else None
+    _require_numbers(box)
+    return ForceFunction(Plan(names, box, form, table, of_table), error, _data(of_table))
+
+
+def _box(fixed: Any, varying: Any, ranges: Any) -> Ranges:
+    """Return the ends of all six quantities."""
+    names = items("varying", varying, "('wire_radius',)")
+    unknown = [name for name in names if not isinstance(name, str) or name not in NAMES]
+    if unknown or not names or len(set(names)) < len(names):
+        raise InputError(
+            f"varying must name different quantities of a scene, but is {names!r}; choose among "
+            f"{', '.join(NAMES)}."
+        )
+    wanted = dict(mapping("ranges", {} if ranges is None else ranges, _EXAMPLE))
+    if set(wanted) != set(names):
+        raise InputError(
+            f"ranges must have the two ends of {', '.join(names)}, but have those of "
+            f"{', '.join(map(str, wanted)) or 'nothing'}; give for instance {_EXAMPLE}."
+        )
+    values = _values(fixed, names)
+    box = {}
+    for quantity in QUANTITIES:
+        if quantity.name in names:
+            ends = items(f"ranges[{quantity.name!r}]", wanted[quantity.name], "(1e-4, 1e-3)")
+            if len(ends) != 2:
+                raise InputError(
+                    f"ranges[{quantity.name!r}] must be two numbers, but are {len(ends)}; give the "
+                    "lowest and the highest value."
+                )
+            low, high = (one_number(quantity, end) for end in ends)
+            if not low < high:
+                raise InputError(
+                    f"ranges[{quantity.name!r}] must rise, but are from {low:g} to {high:g} "
+                    f"{quantity.unit}; give the lowest value first."
+                )
+            box[quantity.name] = low, high
+        else:
+            value = one_number(quantity, values[quantity.name])
+            box[quantity.name] = value, value
+    return box
+
+
+def _values(fixed: Any, varying: tuple[str, ...]) -> dict[str, Any]:
+    """Return the quantities that do not vary."""
+    if isinstance(fixed, Scene):
+        return dict(zip(NAMES, fixed.values(), strict=True))
+    values = {**_DEFAULTS, **mapping("fixed", fixed, "{'shear_modulus': 685.0}")}
+    unknown = [name for name in values if name not in NAMES]
+    missing = [name for name in NAMES if name not in values and name not in varying]
+    if unknown or missing:
+        what = f"{missing[0]} is missing" if missing else f"{unknown[0]!r} is unknown"
+        raise InputError(
+            f"fixed must have every quantity that does not vary, but {what}; give a Scene, or "
+            f"some of {', '.join(NAMES)}."
+        )
+    return values
+
+
+def _cheapest(box: Ranges, terms: list[str], rtol: float) -> tuple[tuple[str, ...], float]:
+    """Return which terms the table is to give, as few as will do, and the bound of the error."""
+    known = candidates()
+    choices = [(), *((term,) for term in terms), tuple(terms)]
+    errors = {}
+    for choice in dict.fromkeys(choices):
+        models = {term: "table" if term in choice else FREE for term in terms}
+        errors[choice] = force_error(known, box, models, {term: term for term in terms})
+        if errors[choice] <= rtol:
+            return choice, errors[choice]
+    if terms:
+        _require_domain(box)
+    _require(min(errors.values()), rtol, "the table")
+    raise AssertionError("an error above rtol is refused")
+
+
+def _named(model: object, box: Ranges, terms: list[str]) -> tuple[tuple[str, ...], Any, float]:
+    """Return the terms of the table, the closed form and the bound of the error of a model."""
+    chosen = force_model(model)
+    known = candidates() if isinstance(chosen, TableModel) or chosen.name == FREE else None
+    functions = {term: term for term in terms}
+    if known and isinstance(chosen, TableModel):
+        _require_domain(box)
+        error = force_error(known, box, dict.fromkeys(terms, "table"), functions)
+        return tuple(terms), FORCE_MODELS[FREE], error
+    if not isinstance(chosen, ClosedForm):
+        raise InputError(
+            "model must be one that a force can be prepared by, but "
+            f"{chosen.name!r} is neither the table nor a closed form without a power; choose "
+            "model='auto', 'table' or 'eq13'."
+        )
+    error = force_error(known, box, dict.fromkeys(terms, FREE), functions) if known else math.nan
+    return (), chosen, error if error < math.inf else math.nan
+
+
+def _require(error: float, rtol: float | None, who: str) -> None:
+    if rtol is not None and not error <= rtol:
+        known = f"is up to {error:.2g}" if error < math.inf else "is known to nobody"
+        remedy = f"rtol={rounded_up(error)} or more" if error < math.inf else "rtol=None"
+        raise AccuracyError(
+            f"rtol must be met all over the ranges, but rtol = {rtol:g} is not: the error of {who} "
+            f"{known}; give {remedy}, or narrower ranges."
+        )
+
+
+def _require_domain(box: Ranges) -> None:
+    limits = candidates().limits
+    alpha, g = box["stiffening_exponent"], g_range(box)
+    limits.alpha_quantity.checked(alpha[0])
+    limits.alpha_quantity.checked(alpha[1])
+    low, high = limits.g[0], lowest_of_highest(limits, alpha)
+    if not (low <= g[0] and g[1] <= high):
+        raise DomainError(
+            f"g = Gamma_o/(mu R_w) must be from {low:g} to {high:g} all over the ranges, but is "
+            f"from {g[0]:.4g} to {g[1]:.4g}; give narrower ranges, or choose model='eq13'."
+        )
+
+
+def _require_numbers(box: Ranges) -> None:
+    """Refuse scenes whose products leave the range of numbers, so that no call has to look."""
+    divisor = [box["shear_modulus"][i] * box["wire_radius"][i] for i in (0, 1)]
+    strengths = box["wear_strength"][1] + box["friction_coefficient"][1] * box["shear_modulus"][1]
+    largest = (
+        1e3
+        * (strengths * box["wire_radius"][1] + box["toughness"][1])
+        * (1.0 + box["friction_coefficient"][1])
+    )
+    if divisor[0] < 1e-300 or not largest < 1e300 or not divisor[1] < 1e300:
+        raise InputError(
+            "the products of the ranges must be in the range of numbers, but mu R_w is from "
+            f"{divisor[0]:g} to {divisor[1]:g} N/m; take cutting_force for such scenes."
+        )
+
+
+def _data(of_table: tuple[str, ...]) -> dict[str, str]:
+    """Return where the coefficients come from."""
+    if not of_table:
+        return {"source": "closed form of arXiv:2412.02021"}
+    told = candidates().fitted.about.get("provenance", {})
+    return {
+        "source": "table of finite elements",
+        **{key: str(told[key]) for key in ("data_date", "date", "design_hash") if key in told},
+    }

@@ -1,0 +1,104 @@
+"""The statements that evaluate a prepared force, in words that all four languages share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import numpy as np
+
+from surrogate.prepared.dialects import Dialect
+from surrogate.prepared.line import Line
+from surrogate.prepared.plan import ALPHA, ARC, GAMMA, LOAD, MU, RADIUS, WEAR, XI, Plan
+
+__all__ = ["COEFFICIENTS", "arrays_of", "cases_of", "force_statements"]
+
+COEFFICIENTS = {ARC: "ARC", LOAD: "LOAD"}
+"""Names of the arrays of A and B at one alpha."""
+
+PARTS = {ARC: "a_here", LOAD: "b_here"}
+"""Names of A and B in the statements."""
+
+
+def arrays_of(plan: Plan, dialect: Dialect) -> list[str]:
+    """Return the arrays of coefficients at one alpha; none where alpha varies."""
+    return [
+        dialect.numbers(COEFFICIENTS[term], line.pieces.ravel().tolist())
+        for term, line in plan.lines.items()
+    ]
+
+
+def force_statements(plan: Plan, dialect: Dialect) -> tuple[list[str], str]:
+    """Return statements, and the expression of the force after them."""
+    lines = []
+    if plan.lines:
+        lines += _place(next(iter(plan.lines.values())), dialect)
+        lines += [_let(dialect, PARTS[t], _cubic(dialect, COEFFICIENTS[t])) for t in plan.lines]
+    elif plan.of_table:
+        g = f"{GAMMA}/({MU}*{RADIUS})"
+        functions = {t: COEFFICIENTS[t].lower() for t in plan.of_table}
+        lines += [_let(dialect, PARTS[t], _call(dialect, f, g)) for t, f in functions.items()]
+    total = " + ".join((GAMMA, *_terms(plan)))
+    text = "\n".join((*lines, total))
+    constants = {n: v for n, v in plan.fixed.items() if re.search(rf"\b{n}\b", text)}
+    return [*(_let(dialect, n, repr(v)) for n, v in constants.items()), *lines], total
+
+
+def _call(dialect: Dialect, name: str, g: str) -> str:
+    prefix = "wirecut_" if dialect.name == "c" else ""
+    return f"{prefix}{name}({g}, {ALPHA})"
+
+
+def _terms(plan: Plan) -> Iterator[str]:
+    """Yield the terms beside the cleavage."""
+    arc, load_2, load_slope = plan.form.arc_2, plan.form.load_2, plan.form.load_2_slope
+    if ARC in plan.of_table:
+        yield f"2.0*({WEAR}*{RADIUS})*{PARTS[ARC]}"
+    elif arc and plan.ranges[WEAR][1]:
+        yield f"{arc!r}*({WEAR}*{RADIUS})"
+    if LOAD in plan.of_table:
+        yield f"2.0*({RADIUS}*({XI}*{MU}))*{PARTS[LOAD]}"
+    elif plan.ranges[XI][1]:
+        if load_slope:
+            yield f"{load_slope!r}*({XI}*{GAMMA})"
+        if load_2:
+            yield f"{load_2!r}*({RADIUS}*({XI}*{MU}))"
+
+
+def _let(dialect: Dialect, name: str, expression: str) -> str:
+    return f"{dialect.declare}{name} = {expression}{dialect.end}"
+
+
+def _place(line: Line, dialect: Dialect) -> list[str]:
+    """Return the statements that find the piece and the place in it."""
+    last = len(line.pieces) - 1
+    x = f"{dialect.log}({GAMMA}/({MU}*{RADIUS})) - ({line.touch!r})"
+    sides = (
+        f"{line.before!r}*{dialect.lowest}(x, 0.0) + {line.after!r}*{dialect.highest}(x, 0.0)"
+        f" + {float(line.short)!r}"
+    )
+    piece = f"{dialect.highest}(0, {dialect.lowest}({last}, {dialect.floor}(t)))"
+    cast = "(int)" if dialect.name == "c" else ""
+    return [
+        _let(dialect, "x", x),
+        _let(dialect, "t", sides),
+        f"{dialect.integer}piece = {cast}{piece}{dialect.end}",
+        f"t = t - piece{dialect.end}",
+    ]
+
+
+def _cubic(dialect: Dialect, array: str) -> str:
+    a, b, c, d = (dialect.item(array, f"4*piece + {k}") for k in range(4))
+    return f"{a} + t*({b} + t*({c} + t*{d}))"
+
+
+def cases_of(plan: Plan, count: int = 10) -> np.ndarray:
+    """Return values of what varies, the ends of the ranges first, one row for each case."""
+    shares = np.linspace(0.0, 1.0, count)
+    rows = []
+    for k, name in enumerate(plan.varying):
+        low, high = plan.ranges[name]
+        mixed = np.roll(shares, 3 * k)  # so that the quantities do not rise together
+        with np.errstate(all="ignore"):
+            rows.append(np.minimum(np.maximum(low + (high - low) * mixed**2, low), high))
+    return np.array(rows).T

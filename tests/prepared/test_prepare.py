@@ -1,0 +1,220 @@
+"""Prepared forces: the numbers of the models, what is proven of them, and what is refused."""
+
+import numpy as np
+import pytest
+
+from surrogate import (
+    AccuracyError,
+    DomainError,
+    InputError,
+    Scene,
+    cutting_force,
+    force_gradient,
+    prepare,
+)
+from surrogate.choosing.candidates import candidates
+from surrogate.scene import NAMES
+
+GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
+BOX = {
+    "shear_modulus": (400.0, 2000.0),
+    "toughness": (0.8, 3.0),
+    "wire_radius": (1e-4, 1e-3),
+    "friction_coefficient": (0.0, 0.3),
+    "wear_strength": (100.0, 9000.0),
+    "stiffening_exponent": (2.0, 4.0),
+}
+ONES = [(name,) for name in NAMES]
+SEVERAL = [
+    ("toughness", "wire_radius"),
+    ("wire_radius", "friction_coefficient"),
+    ("shear_modulus", "stiffening_exponent"),
+    NAMES,
+]
+
+
+def of(varying, model="table", fixed=GEL, **options):
+    return prepare(fixed, varying, {name: BOX[name] for name in varying}, model, **options)
+
+
+def points(varying, count=2000, seed=1):
+    """Return values in the ranges, the ends among them."""
+    random = np.random.default_rng(seed)
+    values = [random.uniform(*BOX[name], count) for name in varying]
+    for value, name in zip(values, varying, strict=True):
+        value[:2] = BOX[name]
+    return values
+
+
+def scene_of(varying, values, fixed=GEL):
+    return Scene(
+        **{
+            **dict(zip(NAMES, fixed.values(), strict=True)),
+            **dict(zip(varying, values, strict=True)),
+        }
+    )
+
+
+@pytest.mark.parametrize("model", ["table", "eq13", "low-toughness"])
+@pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
+def test_it_is_the_models_force_and_the_same_for_numbers(varying, model):
+    force, values = of(varying, model), points(varying)
+    expected = cutting_force(scene_of(varying, values), model).total
+    found = force(*values)
+    np.testing.assert_allclose(found, expected, rtol=1e-13)
+    for i in range(40):
+        alone = force(*(float(value[i]) for value in values))
+        assert type(alone) is float
+        assert alone == found[i]
+    assert np.array_equal(force(**dict(zip(varying, values, strict=True))), found)
+
+
+@pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
+def test_derivatives_are_those_of_the_model(varying):
+    force, values = of(varying), points(varying, 300)
+    expected = force_gradient(scene_of(varying, values), "table")
+    found = force.gradient(*values)
+    for name in varying:
+        np.testing.assert_allclose(found[name], getattr(expected, name), rtol=1e-11, atol=1e-300)
+    if len(varying) == 1:
+        assert np.array_equal(force.derivative(*values), found[varying[0]])
+
+
+@pytest.mark.parametrize("rtol", [1.0, 0.2, 0.02])
+def test_auto_keeps_its_promise_beside_the_gp_whose_bounds_it_uses(rtol):
+    """The error beside the process is at most the table's bound and the process's own."""
+    for xi, wear in ((0.0, 7750.0), (0.2, 0.0), (0.1, 50.0), (1e-6, 7750.0)):
+        gel = Scene(685.0, 1.6, 0.25e-3, xi, wear, 3.0)
+        force = prepare(gel, ranges={"wire_radius": (5e-5, 2e-3)}, rtol=rtol)
+        assert force.relative_error <= rtol
+        radius = np.geomspace(5e-5, 2e-3, 400)
+        there = cutting_force(Scene(685.0, 1.6, radius, xi, wear, 3.0), "gp").total
+        own = max(
+            float(np.max(candidates().error("gp", name)[:-1])) for name in ("arc", "normal_load")
+        )
+        assert np.max(np.abs(force(radius) / there - 1.0)) <= force.relative_error + own
+
+
+def test_the_bound_is_not_below_that_of_any_point():
+    random = np.random.default_rng(3)
+    for _ in range(20):
+        low = np.exp(random.uniform(np.log(5e-5), np.log(1e-3)))
+        ends = low, low * random.uniform(1.01, 3.0)
+        gel = Scene(685.0, 1.6, 1e-4, random.uniform(0.0, 0.3), 7750.0, random.uniform(2.0, 8.0))
+        force = prepare(gel, ranges={"wire_radius": ends}, model="table")
+        by_point = cutting_force(
+            Scene(*gel.values()[:2], np.geomspace(*ends, 50), *gel.values()[3:]), rtol=0.05
+        )
+        table = by_point.chosen == "table"
+        assert np.all(by_point.relative_error[table] <= force.relative_error * (1.0 + 1e-9) + 0.02)
+
+
+def test_what_the_scene_lacks_is_left_out():
+    assert of(("wire_radius",), fixed=Scene(685.0, 1.6, 1e-4, 0.0, 7750.0)).terms == {
+        "wear": "table"
+    }
+    assert of(("wire_radius",), fixed=Scene(685.0, 1.6, 1e-4, 0.1, 0.0)).terms == {
+        "friction": "table"
+    }
+    bare = of(("wire_radius",), "auto", Scene(685.0, 1.6, 1e-4))
+    assert (bare.terms, bare.relative_error, bare(2e-4)) == ({}, 0.0, 1.6)
+    little = of(("wire_radius",), "auto", Scene(685.0, 1.6, 1e-4, 1e-6, 7750.0))
+    assert little.terms == {"wear": "table", "friction": "eq13"}
+
+
+@pytest.mark.parametrize("name", ["wire_radius", "toughness", "wear_strength"])
+def test_monotonic_forces_are_inverted(name):
+    force = of((name,))
+    assert force.monotonic == "rising"
+    (values,) = points((name,), 200)
+    back = force.inverse(force(values))
+    np.testing.assert_allclose(force(back), force(values), rtol=1e-14)
+    np.testing.assert_allclose(back, values, rtol=1e-10)
+    assert force.inverse(force(float(values[5]))) == pytest.approx(values[5])
+    with pytest.raises(DomainError, match="force must be at most"):
+        force.inverse(1e9)
+    if name == "wire_radius":
+        assert force.radius_for(7.0) == force.inverse(7.0)
+
+
+def test_a_force_that_is_not_monotonic_is_not_inverted():
+    """Friction alone falls, then rises with the radius where alpha is small."""
+    gel = Scene(685.0, 1.6, 1e-4, 0.5, 0.0, 2.0)
+    force = prepare(gel, ranges={"wire_radius": (3e-5, 0.5)}, model="table")
+    radius = np.geomspace(3e-5, 0.5, 4000)
+    slopes = np.sign(force.derivative(radius))
+    assert (force.monotonic == "unknown") == (len(set(slopes)) > 1)
+    alpha = of(("stiffening_exponent",))
+    with pytest.raises(InputError, match="must be monotonic to be inverted"):
+        alpha.inverse(7.0)
+    with pytest.raises(InputError, match="one quantity that varies"):
+        of(("toughness", "wire_radius")).inverse(7.0)
+    with pytest.raises(InputError, match="radius_for must have a force"):
+        of(("toughness",)).radius_for(7.0)
+
+
+def test_outside_the_range():
+    force = of(("wire_radius",))
+    for bad in (2e-3, 5e-5, [2e-4, 2e-3]):
+        with pytest.raises(DomainError, match=r"wire_radius must be at most 0.001 and at least"):
+            force(bad)
+    for bad in (np.nan, np.inf, -1.0, 0.0, 5e-324, 1e300):
+        with pytest.raises(InputError):
+            force(bad)
+        assert np.isnan(force(bad, outside="nan"))
+        mixed = force([2e-4, bad], outside="nan")
+        assert (mixed[0], np.isnan(mixed[1])) == (force(2e-4), True)
+    with pytest.raises(InputError, match="outside must be"):
+        force(2e-4, outside="clip")
+
+
+def test_buffers_and_single_precision():
+    force = of(("wire_radius",))
+    radius = np.linspace(*BOX["wire_radius"], 70001)
+    exact, buffer = force(radius), np.empty(70001)
+    assert force(radius, out=buffer) is buffer
+    assert np.array_equal(buffer, exact)
+    some = np.linspace(1.1e-4, 9e-4, 50).astype(np.float32)
+    single = force(some)
+    assert single.dtype == np.float32
+    np.testing.assert_allclose(single, force(some.astype(float)), rtol=2.0**-24)
+    for bad in (np.empty(3), [1.0], np.empty(70001, int)):
+        with pytest.raises(InputError, match="out must"):
+            force(radius, out=bad)
+
+
+def test_arguments_are_given_once():
+    force = of(("toughness", "wire_radius"))
+    assert force(1.0, wire_radius=2e-4) == force(1.0, 2e-4)
+    for values, named in (((1.0,), {}), ((1.0, 2e-4, 3.0), {}), ((1.0, 2e-4), {"toughness": 1.0})):
+        with pytest.raises(InputError, match="must be asked for with toughness, wire_radius"):
+            force(*values, **named)
+    with pytest.raises(InputError, match="must broadcast"):
+        force([1.0, 2.0], [2e-4, 3e-4, 4e-4])
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "words"),
+    [
+        ({"varying": ()}, InputError, "varying must name"),
+        ({"varying": ("radius",)}, InputError, "varying must name"),
+        ({"ranges": None}, InputError, "ranges must have the two ends"),
+        ({"ranges": {"wire_radius": (1e-4,)}}, InputError, "must be two numbers"),
+        ({"ranges": {"wire_radius": (1e-3, 1e-4)}}, InputError, "must rise"),
+        ({"ranges": {"wire_radius": (1e-3, np.nan)}}, InputError, "wire_radius must be"),
+        ({"ranges": {"wire_radius": (1e-9, 1e-4)}}, DomainError, "all over the ranges"),
+        ({"fixed": {"shear_modulus": 685.0}}, InputError, "toughness is missing"),
+        ({"fixed": {"shear_modulus": 685.0, "toughness": 1.0, "mu": 3.0}}, InputError, "'mu'"),
+        ({"fixed": Scene([685.0], 1.6, 1e-4)}, InputError, "must be one number"),
+        ({"model": "gp"}, InputError, "neither the table nor a closed form"),
+        ({"model": "eq9"}, InputError, "neither the table nor a closed form"),
+        ({"rtol": 1e-6}, AccuracyError, "all over the ranges"),
+        ({"rtol": 0.02, "model": "low-toughness"}, AccuracyError, "known to nobody"),
+        ({"rtol": 0.02, "model": "eq13"}, AccuracyError, "give rtol="),
+    ],
+)
+def test_what_cannot_be_prepared_is_refused_in_words(change, error, words):
+    good = {"fixed": GEL, "varying": ("wire_radius",), "ranges": {"wire_radius": (1e-4, 1e-3)}}
+    prepare(**good)
+    with pytest.raises(error, match=words):
+        prepare(**{**good, **change})

@@ -1,0 +1,180 @@
+"""Exported forces: compiled and run beside Python, over the range and at its ends."""
+
+import json
+import math
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from surrogate import InputError, Scene, prepare
+from surrogate.prepared.source import LANGUAGES
+from surrogate.prepared.whole_table import whole_table
+
+GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
+BOX = {
+    "toughness": (0.8, 3.0),
+    "wire_radius": (1e-4, 1e-3),
+    "friction_coefficient": (0.0, 0.3),
+    "stiffening_exponent": (2.0, 4.0),
+}
+USUAL = {"wire_radius": (1e-4, 1e-3)}
+FORCES = {
+    "radius": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, model="table"),
+    "wear alone": prepare(Scene(685.0, 1.6, 1e-4, 0.0, 7750.0), ranges=USUAL),
+    "closed form": prepare(GEL, ranges={"wire_radius": (1e-6, 1.0)}, model="eq13"),
+    "cleavage": prepare(Scene(685.0, 1.6, 1e-4), ranges=USUAL),
+    "two models": prepare(Scene(685.0, 1.6, 1e-4, 1e-6, 7750.0, 3.0), ranges=USUAL),
+    "several": prepare(GEL, tuple(BOX), BOX, "table"),
+    "alpha": prepare(GEL, ("stiffening_exponent",), {"stiffening_exponent": (2.0, 9.0)}, "table"),
+}
+
+
+def points(force, count=400):
+    random = np.random.default_rng(2)
+    ends = np.array(list(force.ranges.values()))
+    inner = ends[:, 0] + (ends[:, 1] - ends[:, 0]) * random.uniform(size=(count, len(ends))) ** 3
+    return np.vstack([ends.T, inner])
+
+
+def needed(*programs):
+    for program in programs:
+        if shutil.which(program):
+            return shutil.which(program)
+    pytest.skip(f"{programs[0]} is not installed")
+
+
+def run(*command, **options):
+    return subprocess.run(
+        list(map(str, command)), check=True, capture_output=True, text=True, **options
+    ).stdout
+
+
+def in_c(text, rows, tmp_path):
+    compiler = needed("gcc", "cc")
+    (tmp_path / "force.c").write_text(text)
+    calls = "".join(
+        f'  printf("%.17g %d\\n", wirecut_force({a}), wirecut_check({a}));\n'
+        for a in (", ".join(map(repr_c, row)) for row in rows)
+    )
+    main = f'#include <stdio.h>\n#include "force.c"\nint main(void) {{\n{calls}'
+    main += '  printf("%d\\n", wirecut_self_test());\n  return 0;\n}\n'
+    (tmp_path / "main.c").write_text(main)
+    strict = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-O1")
+    run(compiler, *strict, tmp_path / "main.c", "-o", tmp_path / "main", "-lm")
+    lines = run(tmp_path / "main").split()
+    run(compiler, "-DWIRECUT_MAIN", tmp_path / "force.c", "-o", tmp_path / "alone", "-lm")
+    assert run(tmp_path / "alone") == "all cases are met\n"
+    return [float(x) for x in lines[:-1:2]], [int(x) for x in lines[1:-1:2]], int(lines[-1])
+
+
+def repr_c(value):
+    return {"nan": "NAN", "inf": "INFINITY"}.get(repr(value), repr(value))
+
+
+def in_javascript(text, rows, tmp_path):
+    node = needed("node")
+    (tmp_path / "force.js").write_text(text)
+    assert run(node, tmp_path / "force.js") == "all cases are met\n"
+    (tmp_path / "rows.json").write_text(json.dumps(rows).replace("NaN", "null"))
+    script = (
+        "const w = require('./force.js'), rows = require('./rows.json')"
+        ".map((r) => r.map((x) => x === null ? NaN : x));"
+        "const f = rows.map((r) => w.force(...r)).map((x) => Number.isNaN(x) ? 'nan' : x);"
+        "console.log(JSON.stringify([f, rows.map((r) => w.check(...r)), w.selfTest()]));"
+    )
+    forces, codes, wrong = json.loads(run(node, "-e", script, cwd=tmp_path))
+    return [float(x) for x in forces], codes, wrong
+
+
+def in_python(text, rows, tmp_path):
+    (tmp_path / "force.py").write_text(text)
+    assert run(sys.executable, tmp_path / "force.py") == "all cases are met\n"
+    names = {"__name__": "exported"}
+    exec(compile(text, "force.py", "exec"), names)
+    forces, codes = ([names[n](*row) for row in rows] for n in ("force", "check"))
+    return forces, codes, names["self_test"]()
+
+
+def in_matlab(text, rows, tmp_path):
+    octave = needed("octave-cli", "octave")
+    (tmp_path / "wirecut_force.m").write_text(text)
+    calls = "".join(
+        f"[f, c] = wirecut_force({', '.join(map(repr, row))}); printf('%.17g %d\\n', f, c);\n"
+        for row in rows
+    )
+    (tmp_path / "main.m").write_text(calls + "printf('%d\\n', wirecut_force());\n")
+    lines = run(octave, "main.m", cwd=tmp_path).split()
+    return [float(x) for x in lines[:-1:2]], [int(x) for x in lines[1:-1:2]], int(lines[-1])
+
+
+RUNNERS = {"c": in_c, "javascript": in_javascript, "python": in_python, "matlab": in_matlab}
+
+
+@pytest.mark.parametrize("name", FORCES)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_numbers_are_pythons(language, name, tmp_path):
+    force = FORCES[name]
+    rows = points(force).tolist()
+    forces, codes, wrong = RUNNERS[language](force.source(language), rows, tmp_path)
+    assert wrong == 0
+    assert set(codes) == {0}
+    np.testing.assert_allclose(forces, force(*np.array(rows).T), rtol=1e-12)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_out_of_range_has_a_number_and_no_force(language, tmp_path):
+    force = FORCES["several"]
+    middle = [0.5 * sum(ends) for ends in force.ranges.values()]
+    rows, expected = [], []
+    for i, (low, high) in enumerate(force.ranges.values()):
+        for bad in (np.nextafter(low, -1.0), np.nextafter(high, math.inf), -1e300, 1e300, math.nan):
+            rows.append([*middle[:i], float(bad), *middle[i + 1 :]])
+            expected.append(i + 1)
+    forces, codes, _ = RUNNERS[language](force.source(language), rows, tmp_path)
+    assert codes == expected
+    assert np.all(np.isnan(forces))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_whole_table(language, tmp_path):
+    from surrogate import cutting_force
+    from surrogate.choosing.candidates import candidates
+
+    limits = candidates().limits
+    random = np.random.default_rng(4)
+    highest = min([limits.g[1], *(g for _, g in limits.highest)])
+    g = np.exp(random.uniform(np.log(limits.g[0]), np.log(highest), 300))
+    alpha = random.uniform(*limits.alpha, 300)
+    alpha[:2] = limits.alpha
+    mu, radius, xi = 685.0 * np.ones(300), 1e-4 * np.ones(300), random.uniform(0.0, 1.0, 300)
+    scene = Scene(mu, g * mu * radius, radius, xi, 10.0 * mu * random.uniform(size=300), alpha)
+    rows = np.array(scene.values()).T.tolist()
+    text = whole_table(language)
+    forces, codes, wrong = RUNNERS[language](
+        text, [*rows, [*rows[0][:1], 1e3, *rows[0][2:]]], tmp_path
+    )
+    assert (wrong, set(codes[:-1]), codes[-1]) == (0, {0}, 7)
+    np.testing.assert_allclose(forces[:-1], cutting_force(scene, "table").total, rtol=1e-12)
+    if language == "javascript":
+        assert len(text) < 250_000
+
+
+def test_the_header_tells_what_it_is():
+    force = FORCES["radius"]
+    for language in LANGUAGES:
+        head = force.source(language)[:2000]
+        for words in (
+            "N/m",
+            "MIT",
+            "Eq. (S2)",
+            "toughness = 1.6",
+            "from 3e-05 to 0.003",
+            "friction by table",
+        ):
+            assert words in head, (language, words)
+        assert f"up to {force.relative_error:.3g}" in head
+    with pytest.raises(InputError, match="language must be one of"):
+        force.source("fortran")
