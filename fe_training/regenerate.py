@@ -32,7 +32,7 @@ _FULL, _QUICK, _OFF_GRID = "campaign.toml", "campaign-quick.toml", "off-grid.tom
 
 _DATA, _OFF_GRID_DATA = "campaign.h5", "off-grid.h5"
 
-_CHECKED_ROWS = 5
+_CHECKED_ROWS, _NO_MODEL = 5, 4
 
 _DESCRIPTION = """\
 Make the files in `models` anew: campaign -> data set -> fit -> validation.
@@ -44,10 +44,12 @@ it was. A rerun tries failed rows again with a finer mesh."""
 
 _EXAMPLES = """\
 examples:
-  regen-surrogate --quick --jobs 2
-      every step on a coarse design in minutes, into output/campaign-quick
+  regen-surrogate --quick
+      every step on a coarse design in minutes; the models go to output/campaign-quick/models
   regen-surrogate --dry-run
       what would be solved, and about how long that takes
+  wirecut force --models output/campaign-quick/models ...
+      use models of your own, here or with surrogate.load_models in Python
   regen-surrogate --jobs 8
       the full campaign on this machine; again after any interruption
   regen-surrogate --only alpha=2 --only level=fine --jobs 2
@@ -58,6 +60,8 @@ examples:
       the data set of the rows that are finished
   regen-surrogate --continue-from models/campaign.h5 --jobs 2
       go on with an unfinished data set where its store is gone, on another machine say
+  regen-surrogate --design mine.toml --continue-from models/campaign.h5 --out my-models
+      extend or restrict the campaign: only what the shipped rows lack is solved
   regen-surrogate --off-grid --jobs 2
       solutions that no fit has seen, for the validation: models/off-grid.h5
   regen-surrogate --fit-only
@@ -65,7 +69,8 @@ examples:
   regen-surrogate --check 10
       solve ten rows of the shipped data again and compare
 
-exit codes: 0 done, 1 rows of --check differ, 2 bad input or a package missing, 130 interrupted
+exit codes: 0 done, 1 rows of --check differ, 2 bad input or a package missing, 4 the rows are saved
+but too few for a model, 130 interrupted
 """
 
 
@@ -81,7 +86,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     int
         0, or 1 if rows that were checked differ, or 2 after bad input or where a package is
-        missing, with the reason in one line on the standard error stream.
+        missing, with the reason in one line on the standard error stream, or 4 if the rows were
+        too few for a model.
 
     Examples
     --------
@@ -136,7 +142,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--scheduler", metavar="ADDRESS", help="of a Dask scheduler, such as tcp://10.0.0.1:8786")
     add("--store", metavar="DIR", help="finished rows (output/campaign)")
     add("--adopt", action="store_true", help="take over a store of another design")
-    add("--continue-from", metavar="FILE", help="put this data set's rows into the store first")
+    add("--continue-from", metavar="FILE", help="take rows that the design has from this data set")
     add("--out", metavar="DIR", help="where the files go (models; with --quick beside the store)")
     add("--seed", type=int, default=0, metavar="N", help="of the random sample of --check (0)")
     return parser
@@ -155,7 +161,8 @@ def _count(text: str) -> int:
 def _regenerate(options: argparse.Namespace) -> int:
     if (options.backend == "dask") != (options.scheduler is not None):
         raise InputError("--backend dask and --scheduler ADDRESS need each other; give both.")
-    from fe_training.campaign.design import read_design
+    from fe_training.campaign.design_file import read_design
+    from fe_training.campaign.refill import refill
     from fe_training.campaign.run import plan
     from fe_training.campaign.store import Store
     from fe_training.campaign.workers import Workers
@@ -175,16 +182,17 @@ def _regenerate(options: argparse.Namespace) -> int:
     if options.dry_run:
         _say_plan(design, plan(design, store, chosen, not options.no_retry), workers)
         return 0
+    known = _continued(design, options.continue_from) if options.continue_from else None
     with store.opened(design, options.adopt):
-        if options.continue_from:
-            _refill(design, store, options.continue_from)
+        if known is not None:
+            _say(f"    {refill(store, design, known)} rows taken from {options.continue_from}")
         if not options.no_solve:
             _campaign(design, store, chosen, workers, not options.no_retry)
         data = _data_set(design, store, out / (_OFF_GRID_DATA if options.off_grid else _DATA))
     _say_points(data)
-    if not options.off_grid:
-        _fit(data, out, options.single_mesh)
-    return 0
+    if options.off_grid:
+        return 0
+    return 0 if _fit(data, out, options.single_mesh) else _NO_MODEL
 
 
 def _say(text: str) -> None:
@@ -199,7 +207,7 @@ def _chosen(design: CampaignDesign, only: Sequence[str]) -> list[Configuration]:
         name, _, value = text.partition("=")
         known: dict[str, tuple[Callable[[str], Any], Sequence[Any]]] = {
             "alpha": (float, design.alpha),
-            "level": (str, tuple(design.levels)),
+            "level": (str, design.names),
         }
         if name not in known:
             raise InputError(f"--only {text} is not understood; give alpha=VALUE or level=NAME.")
@@ -219,11 +227,14 @@ def _chosen(design: CampaignDesign, only: Sequence[str]) -> list[Configuration]:
     ]
 
 
-def _refill(design: CampaignDesign, store: Store, file: str) -> None:
+def _continued(design: CampaignDesign, file: str) -> Campaign:
+    """Return the data set to go on with, refused before a store is made."""
     from fe_training.campaign.dataset import load_campaign
-    from fe_training.campaign.refill import refill
+    from fe_training.campaign.refill import require_same_meshes
 
-    _say(f"    {refill(store, design, load_campaign(file))} rows taken from {file}")
+    known = load_campaign(file)
+    require_same_meshes(design, known)
+    return known
 
 
 def _campaign(
@@ -265,21 +276,23 @@ def _say_points(data: Campaign) -> None:
     """Say how many points may be used, and why the others may not."""
     points = data.points
     use = points["use"].astype(bool)
-    wanted = len(data.design.configurations()) // len(data.design.levels)
+    wanted = data.design.points
     _say(f"    {use.sum()} of {wanted} points within the bounds of their evidence")
     left_out = zip(points["alpha"][~use], points["g"][~use], points["reason"][~use], strict=True)
     for alpha, g, reason in left_out:
         _say(f"    alpha = {alpha:g}, g = {g:g}: {reason}")
 
 
-def _fit(data: Campaign, out: Path, single_mesh: bool) -> None:
-    """Fit, validate and write the models, or say why they cannot be made yet."""
+def _fit(data: Campaign, out: Path, single_mesh: bool) -> bool:
+    """Fit, validate and write the models, or say why they cannot be made yet; return whether."""
     _say("3/4 fit")
     try:
         _make(data, out, single_mesh)
     except InputError as error:
-        _say(f"    not made, as {error}")
+        _say(f"    no model was made, as {error}")
         _say("4/4 validation: there is nothing to validate")
+        return False
+    return True
 
 
 def _fit_only(out: Path, single_mesh: bool) -> None:

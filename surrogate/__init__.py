@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from surrogate.errors import (
     AccuracyError,
     DomainError,
+    ImplausibleInputWarning,
     InputError,
     UnknownModelError,
     WirecutError,
@@ -23,7 +24,7 @@ from surrogate.errors import (
 from surrogate.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from surrogate.choosing.catalogue import ModelInfo, models
+    from surrogate.choosing.catalogue import ModelInfo, load_models, models
     from surrogate.contact.closed_forms import FORCE_MODELS
     from surrogate.cutting.contact_functions import (
         ContactFunctions,
@@ -73,6 +74,7 @@ __all__ = [
     "DomainError",
     "ForceGradient",
     "Identification",
+    "ImplausibleInputWarning",
     "InputError",
     "MapPoints",
     "Material",
@@ -100,6 +102,7 @@ __all__ = [
     "general_force",
     "high_toughness_force",
     "identify",
+    "load_models",
     "low_toughness_dissipation",
     "low_toughness_force",
     "models",
@@ -121,7 +124,7 @@ __all__ = [
 
 # Loaded at first use, so that nobody waits for what is not needed.
 _MODULES = {
-    "choosing.catalogue": "ModelInfo models",
+    "choosing.catalogue": "ModelInfo load_models models",
     "contact.closed_forms": "FORCE_MODELS",
     "cutting.contact_functions": "ContactFunctions contact_functions energy_release_rate",
     "cutting.force": "CuttingForce cutting_force dissipative_force",

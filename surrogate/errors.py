@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = [
     "AccuracyError",
     "DomainError",
+    "ImplausibleInputWarning",
     "InputError",
     "MissingExtraError",
     "UnknownModelError",
@@ -34,3 +35,7 @@ class AccuracyError(InputError):
 
 class MissingExtraError(WirecutError, ImportError):
     """An optional dependency is needed that is not installed."""
+
+
+class ImplausibleInputWarning(UserWarning):
+    """A number that is hardly that of cutting a soft solid with a wire: check its unit."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 
 HERE = Path(__file__).resolve().parent
 

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.run import plan, run_campaign
 from fe_training.campaign.store import Store
 from fe_training.campaign.workers import Workers

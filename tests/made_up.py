@@ -1,4 +1,4 @@
-"""A made-up contact whose A, B and delta are known everywhere, and points of it with errors."""
+"""A made-up contact whose functions are known everywhere, and points of it with errors."""
 
 import numpy as np
 
@@ -33,11 +33,20 @@ def truth(g, alpha):
     )
 
 
+def slip_truth(g, alpha):
+    """Return A* and B*, which grow faster than A and B and bend at the touch as well."""
+    arc, load, _ = truth(g, alpha)
+    past = np.maximum(np.log(g) - log_touch(alpha), 0.0)
+    stretch = 1.0 + 0.3 * np.sqrt(g / (1.0 + g)) / alpha
+    return arc * stretch * np.exp(0.3 * past / alpha), load * stretch * np.exp(0.4 * past / alpha)
+
+
 def points(seed=0, alphas=ALPHAS, g=G, noise=NOISE):
     """Return points with random errors: five times as large of A as of B, none of delta."""
     random = np.random.default_rng(seed)
     alpha, g = (each.ravel() for each in np.meshgrid(alphas, g, indexing="ij"))
     arc, load, distance = truth(g, alpha)
+    slip_arc, slip_load = slip_truth(g, alpha)
     size = len(g)
     return FitPoints(
         alpha=alpha,
@@ -48,4 +57,8 @@ def points(seed=0, alphas=ALPHAS, g=G, noise=NOISE):
         arc_std=np.full(size, 5.0 * noise),
         normal_load_std=np.full(size, noise),
         distance_std=np.full(size, noise),
+        slip_arc=slip_arc * (1.0 + noise * random.standard_normal(size)),
+        slip_load=slip_load * (1.0 + noise * random.standard_normal(size)),
+        slip_arc_std=np.full(size, noise),
+        slip_load_std=np.full(size, noise),
     )

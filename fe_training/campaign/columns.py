@@ -77,6 +77,8 @@ POINT_COLUMNS: dict[str, tuple[str, str]] = {
     "distance_error": ("-", "relative difference of delta between the mesh levels at this g"),
     "slip_arc_error": ("-", "relative difference of A* between the mesh levels at this g"),
     "slip_load_error": ("-", "relative difference of B* between the mesh levels at this g"),
+    "slip_arc_notch_slope": ("-", "dA*/d ln(1/r), r the notch radius; nan where not solved"),
+    "slip_load_notch_slope": ("-", "dB*/d ln(1/r), r the notch radius; nan where not solved"),
     "truncation_error": ("-", "estimated relative error of B from the finite body"),
     "force_mismatch": ("-", "|J - 2 F_h|/J of the row"),
     "support_spread": ("-", "largest relative difference of J between supports, of the row"),

@@ -1,34 +1,31 @@
-"""What a campaign solves: a design read from TOML, its configurations and its tasks."""
+"""What a campaign solves: its design, its configurations and its tasks."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import math
-import os
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
-from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from fe_training.solver.cut import Settings
-from fe_training.solver.solve import ALPHA_RANGE, G_RANGE
-from surrogate.basics.files import file_name
-from surrogate.errors import InputError
 
-__all__ = ["STRATEGIES", "CampaignDesign", "Configuration", "Denser", "Task", "read_design"]
+__all__ = [
+    "BLUNT",
+    "STRATEGIES",
+    "Beyond",
+    "Blunt",
+    "CampaignDesign",
+    "Configuration",
+    "Denser",
+    "Task",
+]
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-_SCHEMA = "wirecut-campaign-1"
-_MOST_NODES = 10_000
+#: Name of the level with a larger notch.
+BLUNT = "blunt"
 
 #: How the settings of a level are changed at each attempt: a failed configuration is tried again
 #: with the next one when the campaign is run again.
@@ -98,8 +95,58 @@ class Denser:
 
     def density(self, alpha: float, log_g: Any) -> Any:
         """Return the density of nodes at log10 g, relative to that far from the touch."""
-        touch = np.interp(alpha, self.alpha, np.log10(self.touch))
-        return 1.0 + self.peak * np.exp(-(((log_g - touch) / self.width) ** 2))
+        return 1.0 + self.peak * np.exp(-(((log_g - np.log10(self.at(alpha))) / self.width) ** 2))
+
+    def at(self, alpha: float) -> float:
+        """Return g at which the tip touches, log g interpolated linearly [-]."""
+        return float(10.0 ** np.interp(alpha, self.alpha, np.log10(self.touch)))
+
+
+@dataclass(frozen=True, slots=True)
+class Beyond:
+    """How far the nodes in g go on above the highest one that all alphas share.
+
+    Parameters
+    ----------
+    alpha : tuple of float
+        Stiffening exponents in rising order, from each of which on ... [-]
+    highest : tuple of float
+        ... g goes this far [-].
+    per_decade : int
+        Nodes in a decade of g there, evenly spaced in log g.
+    """
+
+    alpha: tuple[float, ...]
+    highest: tuple[float, ...]
+    per_decade: int
+
+    def nodes(self, alpha: float, above: float) -> tuple[float, ...]:
+        """Return the nodes of one alpha above a g, rising, none below the first exponent."""
+        pairs = zip(self.alpha, self.highest, strict=True)
+        reached = [highest for start, highest in pairs if alpha >= start]
+        if not reached:
+            return ()
+        decades = math.log10(reached[-1] / above)
+        count = max(1, round(self.per_decade * decades))
+        return tuple(
+            float(f"{above * 10.0 ** (decades * (i + 1) / count):.4g}") for i in range(count)
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Blunt:
+    """A third level: the coarser mesh with a larger notch, for what depends on the size of the tip.
+
+    Parameters
+    ----------
+    notch_radius : float
+        Its notch [R_w].
+    share : float
+        It is solved from this share of the g on at which the tip begins to touch [-].
+    """
+
+    notch_radius: float
+    share: float
 
 
 @dataclass(frozen=True)
@@ -122,6 +169,10 @@ class CampaignDesign:
         The two meshes, the coarser one first.
     nodes : tuple of tuple of float, optional
         The nodes in g of each alpha, rising, where they are given one by one.
+    beyond : Beyond, optional
+        Nodes above `highest`, further for larger exponents.
+    blunt : Blunt, optional
+        The level with a larger notch, named "blunt".
     """
 
     alpha: tuple[float, ...]
@@ -132,6 +183,8 @@ class CampaignDesign:
     path_from: float
     levels: Mapping[str, Settings]
     nodes: tuple[tuple[float, ...], ...] | None = None
+    beyond: Beyond | None = None
+    blunt: Blunt | None = None
 
     @property
     def hash(self) -> str:
@@ -143,8 +196,11 @@ class CampaignDesign:
         """Return all numbers, defaults of the settings included, as plain dictionaries."""
         levels = [[name, asdict(settings)] for name, settings in self.levels.items()]
         numbers = {field.name: getattr(self, field.name) for field in fields(self)}
-        if self.nodes is None:
-            del numbers["nodes"]  # as if there were no such field, for the hash
+        for name in ("nodes", "beyond", "blunt"):
+            if numbers[name] is None:
+                del numbers[name]  # as if there were no such field, for the hash
+            elif name != "nodes":
+                numbers[name] = asdict(numbers[name])
         return {**numbers, "denser": asdict(self.denser), "levels": levels}
 
     @classmethod
@@ -155,6 +211,11 @@ class CampaignDesign:
         rest = {name: _plain(value) for name, value in numbers.items()}
         if "nodes" in numbers:
             rest["nodes"] = tuple(map(tuple, numbers["nodes"]))
+        if "beyond" in numbers:
+            beyond = {name: _plain(value) for name, value in numbers["beyond"].items()}
+            rest["beyond"] = Beyond(**beyond)
+        if "blunt" in numbers:
+            rest["blunt"] = Blunt(**numbers["blunt"])
         return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
 
     def g(self, alpha: float) -> tuple[float, ...]:
@@ -165,16 +226,34 @@ class CampaignDesign:
         density = self.denser.density(alpha, fine)
         share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
         nodes = np.interp(np.linspace(0.0, share[-1], self.count), share, fine)
-        return tuple(float(f"{10.0**node:.4g}") for node in nodes)
+        shared = tuple(float(f"{10.0**node:.4g}") for node in nodes)
+        return shared + (self.beyond.nodes(alpha, self.highest) if self.beyond else ())
+
+    @property
+    def points(self) -> int:
+        """Number of pairs of alpha and g."""
+        return sum(len(self.g(alpha)) for alpha in self.alpha)
 
     def configurations(self) -> list[Configuration]:
         """Return all configurations: level by level, in rising order of alpha and g."""
         return [
             Configuration(level, alpha, g)
-            for level in self.levels
+            for level in self.names
             for alpha in self.alpha
-            for g in self.g(alpha)
+            for g in self._g_of(level, alpha)
         ]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all levels: the two meshes, the coarser one first, and the blunt one."""
+        return (*self.levels, *((BLUNT,) if self.blunt else ()))
+
+    def _g_of(self, level: str, alpha: float) -> tuple[float, ...]:
+        """Return the nodes in g of one alpha that a level solves."""
+        if level in self.levels or self.blunt is None:
+            return self.g(alpha)
+        lowest = max(self.blunt.share * self.denser.at(alpha), self.path_from)
+        return tuple(g for g in self.g(alpha) if g >= lowest)
 
     def together(self, one: Configuration) -> list[Configuration]:
         """Return the configurations that are solved along one path with a given one, it included.
@@ -183,11 +262,14 @@ class CampaignDesign:
         """
         if one.target < self.path_from:
             return [one]
-        path = [Configuration(one.level, one.alpha, g) for g in self.g(one.alpha)]
+        path = [Configuration(one.level, one.alpha, g) for g in self._g_of(one.level, one.alpha)]
         return [other for other in path if other.target >= self.path_from]
 
     def settings(self, level: str, attempt: int) -> Settings:
         """Return the settings of a level at an attempt."""
+        if level == BLUNT and self.blunt:
+            first = next(iter(self.levels.values()))
+            return STRATEGIES[attempt](replace(first, notch_radius=self.blunt.notch_radius))
         return STRATEGIES[attempt](self.levels[level])
 
     def tasks(self, wanted: Iterable[tuple[Configuration, int]]) -> list[Task]:
@@ -203,7 +285,7 @@ class CampaignDesign:
                 paths.setdefault((attempt, one.level, one.alpha), []).append(one)
             else:
                 alone.append(Task((one,), attempt))
-        order = list(self.levels)
+        order = self.names
         tasks = [Task(tuple(several), key[0]) for key, several in paths.items()] + alone
         return sorted(
             tasks,
@@ -212,191 +294,6 @@ class CampaignDesign:
                 -order.index(task.configurations[0].level),
             ),
         )
-
-
-def read_design(path: str | os.PathLike[str]) -> CampaignDesign:
-    """Return the design in a TOML file.
-
-    Parameters
-    ----------
-    path : str or path-like
-        A file like ``models/campaign.toml``.
-
-    Returns
-    -------
-    CampaignDesign
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or a number in it is missing or unusable.
-
-    Examples
-    --------
-    >>> from surrogate.basics.files import model_file
-    >>> design = read_design(model_file("campaign.toml"))
-    >>> len(design.alpha), len(design.configurations())
-    (11, 968)
-    """
-    name = file_name(path)
-    try:
-        table = tomllib.loads(Path(name).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"the design {name} cannot be read ({error.strerror}).") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"the design {name} is no TOML: {error}.") from None
-    try:
-        return _checked(_Table("", table))
-    except InputError as error:
-        raise InputError(f"the design {name}: {error}") from None
-
-
-class _Table:
-    """A table of the design; taking from it what is expected finds what is missing or unknown."""
-
-    def __init__(self, name: str, content: Mapping[str, Any]) -> None:
-        self.name, self._left = name, dict(content)
-
-    def _take(self, key: str, kind: type | tuple[type, ...], what: str) -> Any:
-        name = f"{self.name}{key}"
-        if key not in self._left:
-            raise InputError(f"{name} is missing; give {what}.")
-        value = self._left.pop(key)
-        if not isinstance(value, kind) or isinstance(value, bool):
-            raise InputError(f"{name} is {value!r}; give {what}.")
-        return value
-
-    def number(self, key: str, lower: float, upper: float) -> float:
-        what = f"a number from {lower:g} to {upper:g}"
-        return _inside(f"{self.name}{key}", self._take(key, (int, float), what), lower, upper)
-
-    def integer(self, key: str, lower: int, upper: int) -> int:
-        value = self._take(key, int, f"a whole number from {lower} to {upper}")
-        return int(_inside(f"{self.name}{key}", value, lower, upper))
-
-    def numbers(self, key: str, lower: float, upper: float, rising: bool) -> tuple[float, ...]:
-        name, order = f"{self.name}{key}", "rising " if rising else ""
-        what = f"a list of {order}numbers from {lower:g} to {upper:g}"
-        values = self._take(key, list, what)
-        if not values or not all(isinstance(v, (int, float)) for v in values):
-            raise InputError(f"{name} is {values!r}; give {what}.")
-        checked = tuple(_inside(name, value, lower, upper) for value in values)
-        if rising and any(b <= a for a, b in pairwise(checked)):
-            raise InputError(f"{name} is {values!r}, which does not rise; give {what}.")
-        return checked
-
-    def lists(self, key: str, lower: float, upper: float) -> tuple[tuple[float, ...], ...]:
-        values = self._take(key, list, "a list of lists of numbers")
-        within = _Table(f"{self.name}{key} ", {str(i): v for i, v in enumerate(values)})
-        return tuple(within.numbers(str(i), lower, upper, True) for i in range(len(values)))
-
-    def has(self, key: str) -> bool:
-        return key in self._left
-
-    def text(self, key: str, expected: str) -> None:
-        if self._take(key, str, repr(expected)) != expected:
-            raise InputError(f"{self.name}{key} is not {expected!r}; no other is known.")
-
-    def table(self, key: str) -> _Table:
-        return _Table(f"{self.name}{key}.", self._take(key, dict, "a table"))
-
-    def rest(self) -> dict[str, Any]:
-        left, self._left = self._left, {}
-        return left
-
-    def end(self) -> None:
-        if self._left:
-            names = ", ".join(f"{self.name}{key}" for key in self._left)
-            raise InputError(f"{names} is unknown; leave it out.")
-
-
-def _checked(table: _Table) -> CampaignDesign:
-    table.text("schema", _SCHEMA)
-    alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
-    path_from = table.number("path_from", 0.0, math.inf)
-    g, levels = table.table("g"), table.table("levels")
-    table.end()
-    if g.has("nodes"):
-        return _listed(alpha, path_from, g, _levels(levels))
-    lowest = g.number("lowest", *G_RANGE)
-    highest = g.number("highest", *G_RANGE)
-    if highest <= lowest:
-        raise InputError(f"g.highest = {highest:g} is not above g.lowest = {lowest:g}.")
-    count = g.integer("count", 2, _MOST_NODES)
-    denser = g.table("denser")
-    g.end()
-    at = denser.numbers("alpha", *ALPHA_RANGE, rising=True)
-    touch = denser.numbers("touch", *G_RANGE, rising=False)
-    if len(touch) != len(at):
-        raise InputError(
-            f"g.denser.touch has {len(touch)} numbers and g.denser.alpha {len(at)}; "
-            "give one for each alpha."
-        )
-    peak, width = denser.number("peak", 0.0, 100.0), denser.number("width", 0.01, 10.0)
-    denser.end()
-    design = CampaignDesign(
-        alpha, lowest, highest, count, Denser(at, touch, peak, width), path_from, _levels(levels)
-    )
-    for value in alpha:
-        if len(set(design.g(value))) < count:
-            raise InputError(
-                f"g.count = {count} nodes between {lowest:g} and {highest:g} coincide in four "
-                "digits; give fewer."
-            )
-    return design
-
-
-def _listed(
-    alpha: tuple[float, ...], path_from: float, g: _Table, levels: dict[str, Settings]
-) -> CampaignDesign:
-    """Return the design whose nodes in g are given one by one for each alpha."""
-    nodes = g.lists("nodes", *G_RANGE)
-    g.end()
-    if len(nodes) != len(alpha):
-        raise InputError(
-            f"g.nodes has {len(nodes)} lists and alpha {len(alpha)} values; give one for each."
-        )
-    every = [node for each in nodes for node in each]
-    nowhere = Denser((2.0,), (1.0,), 0.0, 1.0)
-    count = max(map(len, nodes))
-    return CampaignDesign(alpha, min(every), max(every), count, nowhere, path_from, levels, nodes)
-
-
-def _levels(table: _Table) -> dict[str, Settings]:
-    known = {field.name: field for field in fields(Settings)}
-    levels = {}
-    for name, values in table.rest().items():
-        where = f"levels.{name}"
-        if not name.replace("-", "").replace("_", "").isalnum():
-            raise InputError(f"{where} names a level; use letters, digits, '-' and '_' only.")
-        if not isinstance(values, dict):
-            raise InputError(f"{where} is {values!r}; give a table of settings.")
-        for key, value in values.items():
-            if key not in known:
-                raise InputError(f"{where}.{key} is unknown; the settings are {', '.join(known)}.")
-            default = known[key].default
-            kinds = {int: (int,), float: (int, float), bool: (bool,)}.get(type(default), (str,))
-            if type(value) not in kinds:
-                raise InputError(f"{where}.{key} is {value!r}; give something like {default!r}.")
-            if type(value) in (int, float) and not 0 <= value < math.inf:
-                raise InputError(f"{where}.{key} is {value!r}; give a number from 0 on.")
-            values[key] = float(value) if type(default) is float else value
-        levels[name] = Settings(**values)
-    if len(levels) != 2:
-        raise InputError(f"levels has {len(levels)} tables; give two, the coarser one first.")
-    (first, coarse), (second, fine) = levels.items()
-    if fine.sectors <= coarse.sectors or fine.contact_spacing >= coarse.contact_spacing:
-        raise InputError(
-            f"levels.{second} is not finer than levels.{first}; give it more sectors and a "
-            "smaller contact_spacing."
-        )
-    return levels
-
-
-def _inside(name: str, value: float, lower: float, upper: float) -> float:
-    if not lower <= value <= upper or not math.isfinite(value):
-        raise InputError(f"{name} = {value!r}; give {lower:g} to {upper:g}.")
-    return float(value)
 
 
 def _plain(value: Any) -> Any:

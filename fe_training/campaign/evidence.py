@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.campaign.columns import POINT_COLUMNS
-from fe_training.campaign.design import CampaignDesign, Configuration
+from fe_training.campaign.design import BLUNT, CampaignDesign, Configuration
 from fe_training.campaign.store import Row
 from fe_training.solver.record import Outcome, Record
 
@@ -32,7 +32,7 @@ TARGET_BOUND = 0.01
 def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Array]:
     """Return the columns of the points: the finer level's values and the levels' difference."""
     index = {row.configuration: i for i, row in enumerate(rows)}
-    values = {level: _at_targets(rows, level, design) for level in design.levels}
+    values = {level: _at_targets(rows, level, design) for level in design.names}
     coarse, fine = design.levels
     points: list[dict[str, Any]] = []
     for one in design.configurations():
@@ -62,6 +62,7 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
             "distance_error": errors[2] / best[2],
             "slip_arc_error": errors[3] / best[3],
             "slip_load_error": errors[4] / best[4],
+            **_notch_slopes(design, one, values),
             "truncation_error": record.truncation_error,
             "force_mismatch": record.force_mismatch,
             "support_spread": record.support_spread if reached else np.nan,
@@ -70,6 +71,22 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
         reason = _doubt(point, record) if reached else record.outcome.meaning
         points.append({**point, "use": not reason, "reason": reason})
     return {name: np.array([point[name] for point in points]) for name in POINT_COLUMNS}
+
+
+def _notch_slopes(
+    design: CampaignDesign,
+    one: Configuration,
+    values: Mapping[str, Mapping[Configuration, Floats]],
+) -> dict[str, float]:
+    """Return dA*/d ln(1/r) and dB*/d ln(1/r), r the notch radius, from the blunt level's twin."""
+    coarse = next(iter(design.levels))
+    sharp = values[coarse].get(replace(one, level=coarse))
+    blunt = values.get(BLUNT, {}).get(replace(one, level=BLUNT))
+    slopes = np.full(2, np.nan)
+    if design.blunt and sharp is not None and blunt is not None:
+        radii = design.blunt.notch_radius, design.levels[coarse].notch_radius
+        slopes = (sharp[3:] - blunt[3:]) / np.log(radii[0] / radii[1])
+    return {"slip_arc_notch_slope": slopes[0], "slip_load_notch_slope": slopes[1]}
 
 
 def _doubt(point: Mapping[str, Any], record: Record) -> str:

@@ -16,7 +16,7 @@ from fe_training.campaign.store import Row, Store
 from fe_training.solver.record import Outcome, Record
 from surrogate.errors import InputError
 
-__all__ = ["refill", "rows_of"]
+__all__ = ["refill", "require_same_meshes", "rows_of"]
 
 
 def rows_of(campaign: Campaign) -> list[Row]:
@@ -69,8 +69,29 @@ def _restored(name: str, value: Any) -> Any:
     return value.item()
 
 
+def require_same_meshes(design: CampaignDesign, campaign: Campaign) -> None:
+    """Refuse a data set with rows on other meshes than a design's.
+
+    Raises
+    ------
+    InputError
+        If a level that both have differs, or they have none in common.
+    """
+    other = campaign.design
+    common = [name for name in design.names if name in other.names]
+    differing = [name for name in common if design.settings(name, 0) != other.settings(name, 0)]
+    if differing or not common:
+        what = f"of the level {differing[0]!r} differs" if differing else "has other levels"
+        raise InputError(
+            f"the mesh {what} between the data set and the design, whose rows must not mix; give "
+            "--design one with the same meshes, or leave --continue-from out."
+        )
+
+
 def refill(store: Store, design: CampaignDesign, campaign: Campaign) -> int:
-    """Put the rows of a data set into a store that lacks them.
+    """Put those rows of a data set that a design has into a store that lacks them.
+
+    The data set may belong to another design, with other alphas or g, but on the same meshes.
 
     Parameters
     ----------
@@ -89,14 +110,12 @@ def refill(store: Store, design: CampaignDesign, campaign: Campaign) -> int:
     Raises
     ------
     InputError
-        If the data set belongs to another design.
+        If the meshes of the two designs differ.
     """
-    if campaign.design.hash != design.hash:
-        raise InputError(
-            f"the data set belongs to the design {campaign.design.hash}, not to {design.hash}; "
-            "give --design the one that it was made with, or leave --continue-from out."
-        )
-    lacking = [row for row in rows_of(campaign) if not store.stamp(row.configuration)]
+    require_same_meshes(design, campaign)
+    wanted = set(design.configurations())
+    rows = [row for row in rows_of(campaign) if row.configuration in wanted]
+    lacking = [row for row in rows if not store.stamp(row.configuration)]
     for row in lacking:
         store.write(row)
     return len(lacking)

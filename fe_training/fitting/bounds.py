@@ -19,7 +19,7 @@ from fe_training.fitting.touch import Touch
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.contact.coordinates import QUANTITIES, coordinates, log_touch
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates, log_touch
 from surrogate.contact.process import GaussianProcess
 
 __all__ = ["fit_bounds", "left_out_errors"]
@@ -27,7 +27,10 @@ __all__ = ["fit_bounds", "left_out_errors"]
 Floats = NDArray[np.float64]
 
 ALPHA_EDGES = (2.0, 3.0, 5.0, 9.0)
-G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0)
+G_EDGES = (2.5e-3, 0.1, 0.5, 2.0, 10.0, 100.0, 300.0, 1000.0)
+PROJECTED_TWIN = dict(zip(SLIP_QUANTITIES, QUANTITIES, strict=False))
+"""What the closed forms have in the place of A* and B*: A and B, whose errors count as theirs."""
+
 SAFETY = 2.0
 """How many times the largest error of a few dozen points of a cell the largest of all may be."""
 
@@ -60,21 +63,19 @@ def fit_bounds(
     edges = _edges(G_EDGES, points.g), _edges(ALPHA_EDGES, points.alpha)
     left_out = left_out_errors(points, processes)
     errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
-    for function in QUANTITIES:
-        found = {name: np.zeros([len(each) - 1 for each in edges]) for name in errors}
+    for function in points.names:
+        known = {"eq13": FORCE_MODELS["eq13"], **models}
+        found = {name: np.zeros([len(each) - 1 for each in edges]) for name in known}
         own = _own_errors(points, left_out[function], edges)
         for cell in np.ndindex(own.shape):
             g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
             bound = SAFETY * own[cell] + _bend_error(processes[function], touch, g, alpha)
             at = _grid(g, alpha)
             table = models["table"].contact((function,), *at)[0]
-            apart = {
-                name: _apart(model, function, at, table)
-                for name, model in (("eq13", FORCE_MODELS["eq13"]), *models.items())
-            }
+            apart = {name: _apart(model, function, at, table) for name, model in known.items()}
             found["gp"][cell] = bound
             found["table"][cell] = bound + apart["gp"]
-            for name in ("eq13", "power-law"):
+            for name in apart.keys() - {"gp", "table"}:
                 found[name][cell] = found["table"][cell] + apart[name]
         for name, values in found.items():
             errors[name][function] = values
@@ -109,7 +110,8 @@ def _bend_error(
 
 
 def _apart(model: ForceModel, function: str, at: tuple[Floats, Floats], table: Floats) -> float:
-    value = model.contact((function,), *at)[0]
+    name = function if function in model.functions else PROJECTED_TWIN[function]
+    value = model.contact((name,), *at)[0]
     return float(np.max(np.abs(np.log(np.broadcast_to(value, table.shape) / table))))
 
 

@@ -18,6 +18,7 @@ from fe_training.fitting.process import fit_processes
 from fe_training.fitting.table import fit_table
 from fe_training.fitting.touch import Touch, fit_touch
 from surrogate.basics.files import checksum_line
+from surrogate.contact.coordinates import SLIP_QUANTITIES
 from surrogate.contact.domain import Domain
 from surrogate.contact.process import ProcessModel
 from surrogate.contact.shipped import FILE, Fitted, content_of, to_file
@@ -30,8 +31,9 @@ Floats = NDArray[np.float64]
 #: Fewest stiffening exponents and points that a fit is made from.
 FEWEST_ALPHAS, FEWEST_POINTS = 3, 30
 
-#: B ~ g^n(alpha) beyond the highest g has the slope over the last part of a decade.
-_LAST_DECADES = 0.4
+#: B, A* and B* as powers g^n(alpha) beyond the highest g have the slopes over the last part of a
+#: decade.
+GROWING, _LAST_DECADES = ("normal_load", *SLIP_QUANTITIES), 0.4
 
 
 def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
@@ -60,7 +62,13 @@ def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
             f"more, but there are {len(points)} points of {len(alphas)}; finish the campaign first."
         )
     touch = fit_touch(points)
-    limits = Domain(_ends(points.g), _ends(points.alpha), touch.coefficients, _growth(points))
+    limits = Domain(
+        _ends(points.g),
+        _ends(points.alpha),
+        touch.coefficients,
+        {name: _growth(points, name) for name in points.names if name in GROWING},
+        highest_g(points),
+    )
     processes, _ = fit_processes(points, touch)
     table = fit_table(ProcessModel(limits, processes, touch.error))
     constants = fit_blend(points, touch)
@@ -83,18 +91,34 @@ def _ends(values: Floats) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def _growth(points: FitPoints) -> tuple[float, ...]:
-    """Return d ln B/d ln g at the highest g as a polynomial in ln alpha."""
+def highest_g(points: FitPoints) -> tuple[tuple[float, float], ...]:
+    """Return the highest g for each alpha, as pairs of the corners of its line.
+
+    Between two alphas whose highest g differ it rises from the lower one on, where both are known.
+    """
+    alphas = np.unique(points.alpha)
+    ends = [float(points.g[points.alpha == alpha].max()) for alpha in alphas]
+    if len(set(ends)) == 1:
+        return ()
+    beside = zip([ends[0], *ends[:-1]], ends, [*ends[1:], ends[-1]], strict=True)
+    corners = [before != end or after != end for before, end, after in beside]
+    pairs = zip(map(float, alphas), ends, strict=True)
+    return tuple(pair for pair, corner in zip(pairs, corners, strict=True) if corner)
+
+
+def _growth(points: FitPoints, name: str) -> tuple[float, ...]:
+    """Return d ln/d ln g of a function at the highest g as a polynomial in ln alpha."""
     found = []
     for alpha in np.unique(points.alpha):
         here = points.taken(points.alpha == alpha)
-        last = here.g >= 10.0**-_LAST_DECADES * points.g.max()
+        last = here.g >= 10.0**-_LAST_DECADES * here.g.max()
         if last.sum() >= 2:
-            slope = np.polyfit(np.log(here.g[last]), np.log(here.normal_load[last]), 1)[0]
+            values = getattr(here, name)[last]
+            slope = np.polyfit(np.log(here.g[last]), np.log(values), 1)[0]
             found.append((np.log(alpha), slope))
     if not found:
         raise InputError(
-            "no alpha has two points at the highest g, so that B cannot be continued beyond it; "
+            "no alpha has two points at its highest g, so that B cannot be continued beyond it; "
             "finish the campaign first."
         )
     x, y = np.array(found).T

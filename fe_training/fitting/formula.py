@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from scipy.optimize import least_squares
 
 from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
-from surrogate.contact.coordinates import log_touch
+from surrogate.contact.coordinates import SLIP_QUANTITIES, log_touch
 from surrogate.contact.formula import arc_formula, distance_formula, load_formula
 
 __all__ = ["eq9_fits", "fit_blend"]
@@ -21,6 +22,8 @@ _START = {
     "arc": (0.01, 2.0, -3.0, 0.33, 3.3, 1.0),
     "normal_load": (0.6, -2.3, 1.3, 1.2, 1.4, -0.5),
     "distance": (0.6, -0.6, 1.75, 3.0),
+    "slip_arc": (0.6, -0.5, -1.0, 0.0, 1.0, -1.0),
+    "slip_load": (0.6, -1.5, 1.0, 0.5, 1.9, -1.0),
 }
 
 #: Errors are made equal by raising them, in units of the first, to the second, which brings the
@@ -29,6 +32,7 @@ _UNIT, _NORM = 0.02, 16
 
 #: Eq. (9) is fitted from this g on, "much greater than 1" in the paper.
 _HIGH = 10.0
+_FARTHEST = 20.0
 _GAP_FLOOR = 2e-3  # below this, delta - 1 is not what delta is to be judged by
 
 
@@ -51,10 +55,9 @@ def fit_blend(
     Returns
     -------
     dict of str to tuple of float
-        "arc", "normal_load" and "distance".
+        By the names of the quantities that the points have.
     """
     log_g, y = np.log(points.g), 1.0 - 2.0 / points.alpha
-    log_arc, log_load = np.log(points.arc), np.log(points.normal_load)
     touched = log_touch(touch.coefficients, np.log(points.alpha))
     gap = points.distance - 1.0
     far = (gap > _GAP_FLOOR) & (log_g < touched)
@@ -63,19 +66,35 @@ def fit_blend(
         value = distance_formula(c, log_g[far], y[far], touched[far])[0]
         return np.asarray(np.log(value) - np.log(points.distance[far]))
 
-    misfits: dict[str, Callable[[Floats], Floats]] = {
-        "arc": lambda a: np.log(arc_formula(a, log_g, y)[0]) - log_arc,
-        "normal_load": lambda b: np.log(load_formula(b, log_g, y)[0]) - log_load,
-        "distance": distance_misfit,
-    }
+    def misfit_of(name: str) -> Callable[[Floats], Floats]:
+        formula = arc_formula if name == "arc" else partial(load_formula, name=name)
+        values = np.log(getattr(points, name))
+        return lambda constants: np.log(formula(constants, log_g, y)[0]) - values
+
+    misfits = {name: misfit_of(name) for name in points.names}
+    misfits["distance"] = distance_misfit
     if start is not None:
-        return {name: _fitted(misfit, start[name], (_NORM,)) for name, misfit in misfits.items()}
+        return {
+            name: _fitted(misfit, start[name], (_NORM,), _farthest(name))
+            for name, misfit in misfits.items()
+        }
     norms = (2, 4, 8, _NORM)
-    return {name: _fitted(misfit, _START[name], norms) for name, misfit in misfits.items()}
+    return {
+        name: _fitted(misfit, _START[name], norms, _farthest(name))
+        for name, misfit in misfits.items()
+    }
+
+
+def _farthest(name: str) -> float:
+    """Return how far from 0 a constant may be: those of A* and B* are not all decided by them."""
+    return _FARTHEST if name in SLIP_QUANTITIES else np.inf
 
 
 def _fitted(
-    misfit: Callable[[Floats], Floats], start: tuple[float, ...], norms: tuple[int, ...]
+    misfit: Callable[[Floats], Floats],
+    start: tuple[float, ...],
+    norms: tuple[int, ...],
+    farthest: float,
 ) -> tuple[float, ...]:
     """Return the constants that make a misfit small, in one norm after the other."""
 
@@ -87,7 +106,8 @@ def _fitted(
 
     constants = np.array(start)
     for norm in norms:
-        constants = least_squares(raised, constants, max_nfev=500, args=(norm,)).x
+        bounds = -farthest, farthest
+        constants = least_squares(raised, constants, bounds=bounds, max_nfev=500, args=(norm,)).x
     return tuple(map(float, constants))
 
 

@@ -1,13 +1,15 @@
-"""The points that surrogates are fitted to: A, B and delta over (alpha, g) with their errors."""
+"""The points that surrogates are fitted to: A, B, delta, A* and B* over (alpha, g) with errors."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,6 +24,9 @@ _ONE_LEVEL = "only one mesh level was reached"
 #: Smallest standard errors that a difference between two meshes is believed to show: of A
 #: absolutely, of B and delta relatively.
 ARC_FLOOR, LOAD_FLOOR, DISTANCE_FLOOR = 5e-4, 1e-4, 1e-4
+
+#: The same of A* and B*, relatively.
+SLIP_ARC_FLOOR, SLIP_LOAD_FLOOR = 5e-4, 2e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,6 +43,10 @@ class FitPoints:
         Standard error of A, absolute [-].
     normal_load_std, distance_std : ndarray, shape (points,)
         Standard errors of B and delta, relative [-].
+    slip_arc, slip_load : ndarray, shape (points,), optional
+        A* and B* [-]; data sets from before they were recorded have none.
+    slip_arc_std, slip_load_std : ndarray, shape (points,), optional
+        Their standard errors, relative [-].
     """
 
     alpha: Floats
@@ -48,13 +57,29 @@ class FitPoints:
     arc_std: Floats
     normal_load_std: Floats
     distance_std: Floats
+    slip_arc: Floats | None = None
+    slip_load: Floats | None = None
+    slip_arc_std: Floats | None = None
+    slip_load_std: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.alpha)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the quantities that there are."""
+        return QUANTITIES if self.slip_arc is None else QUANTITIES + SLIP_QUANTITIES
+
+    def relative_std(self, name: str) -> Floats:
+        """Return the relative standard errors of a quantity [-]."""
+        std: Floats = getattr(self, f"{name}_std")
+        return std / self.arc if name == "arc" else std
+
     def taken(self, chosen: Any) -> FitPoints:
         """Return some of the points, by a mask, a slice or indices."""
-        return FitPoints(*(getattr(self, field.name)[chosen] for field in fields(self)))
+        columns = {field.name: getattr(self, field.name) for field in fields(self)}
+        some = {name: each[chosen] for name, each in columns.items() if each is not None}
+        return FitPoints(**some)
 
 
 def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
@@ -100,8 +125,22 @@ def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
             _at_least(columns["normal_load_error"], LOAD_FLOOR, 5e-4), truncation
         ),
         distance_std=_at_least(columns["distance_error"], DISTANCE_FLOOR, 5e-4),
+        **_slip(columns, truncation),
     )
     return found.taken(np.lexsort((found.g, found.alpha)))
+
+
+def _slip(columns: Mapping[str, Any], truncation: Floats) -> dict[str, Floats]:
+    """Return A* and B* and their errors, where the data set has them."""
+    if "slip_arc" not in columns:
+        return {}
+    load = _at_least(columns["slip_load_error"], SLIP_LOAD_FLOOR, 1e-3)
+    return {
+        "slip_arc": columns["slip_arc"],
+        "slip_load": columns["slip_load"],
+        "slip_arc_std": _at_least(columns["slip_arc_error"], SLIP_ARC_FLOOR, 2e-3),
+        "slip_load_std": np.hypot(load, truncation),
+    }
 
 
 def _at_least(errors: Floats, floor: float, unknown: float) -> Floats:

@@ -1,4 +1,4 @@
-"""Gaussian processes of A, B and delta, fitted with scikit-learn and kept as plain arrays."""
+"""Gaussian processes of A, B, delta, A* and B*: scikit-learn fits them, plain arrays keep them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
 from surrogate.contact.coordinates import (
     POWER,
-    QUANTITIES,
     coordinates,
     log_touch,
     vertex,
@@ -73,15 +72,11 @@ def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floa
     x, gap = np.where(short, x, -1.0), np.where(short, gap, 1.0)
     spread = np.hypot(points.distance_std * points.distance / gap, POWER * touch.error / x)
     distance = np.log(gap / (vertex(x) * wedge["distance"]))
-    return {
-        "arc": (at, np.log(points.arc / wedge["arc"]), (points.arc_std / points.arc) ** 2),
-        "normal_load": (
-            at,
-            np.log(points.normal_load / wedge["normal_load"]),
-            points.normal_load_std**2,
-        ),
-        "distance": (at[short], distance[short], spread[short] ** 2),
+    found = {
+        name: (at, np.log(getattr(points, name) / wedge[name]), points.relative_std(name) ** 2)
+        for name in points.names
     }
+    return {**found, "distance": (at[short], distance[short], spread[short] ** 2)}
 
 
 def fit_processes(
@@ -107,7 +102,6 @@ def fit_processes(
     for name, (at, values, noise) in transformed(points, touch).items():
         kept = hyperparameters[name] if hyperparameters else _fitted(at, values, noise)
         processes[name], found[name] = process_with(kept, at, values, noise), kept
-    assert tuple(processes) == QUANTITIES
     return processes, found
 
 

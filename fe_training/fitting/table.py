@@ -1,11 +1,11 @@
-"""Tables of A, B and delta made from the means of the Gaussian processes."""
+"""Tables of A, B, delta, A* and B* made from the means of the Gaussian processes."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.contact.coordinates import QUANTITIES, coordinates
+from surrogate.contact.coordinates import coordinates
 from surrogate.contact.grid import Grid
 from surrogate.contact.process import ProcessModel
 from surrogate.contact.table import CellTable
@@ -46,7 +46,7 @@ def fit_table(
     scales = wedge_functions(log_g, wedge_load(log_g))
     values = {
         name: scales[name] * np.exp(process.processes[name].predict_mean(at).reshape(log_g.shape))
-        for name in QUANTITIES
+        for name in process.processes
     }
     return CellTable(grid, {name: _sides(grid, value) for name, value in values.items()})
 

@@ -10,7 +10,6 @@ from fe_training.fitting.points import FitPoints
 from fe_training.fitting.process import leave_out_errors, rows_of
 from fe_training.fitting.touch import Touch
 from fe_training.validation.model_errors import contact_errors, the_models
-from surrogate.contact.coordinates import QUANTITIES
 from surrogate.contact.formula import BlendModel
 from surrogate.contact.process import GaussianProcess
 from surrogate.contact.shipped import Fitted
@@ -40,7 +39,7 @@ def left_out_of_process(fitted: Fitted, points: FitPoints, groups: Floats) -> di
     """
     all_points = contact_errors(the_models(fitted)["gp"], points)
     found = {}
-    for name in QUANTITIES:
+    for name in fitted.processes:
         rows, error = _left_out(fitted.processes[name], points, groups)[:2]
         factor = np.exp(error)
         if name == "distance":
@@ -55,12 +54,14 @@ def left_out_stds(
     fitted: Fitted, points: FitPoints, groups: Floats
 ) -> dict[str, tuple[Floats, Floats]]:
     """Return error and standard deviation of each process's quantity, its noise included."""
-    return {name: _left_out(fitted.processes[name], points, groups)[1:] for name in QUANTITIES}
+    return {
+        name: _left_out(fitted.processes[name], points, groups)[1:] for name in fitted.processes
+    }
 
 
 def left_out_of_blend(fitted: Fitted, points: FitPoints, touch: Touch) -> dict[str, Floats]:
     """Return the relative errors of the formula at each alpha when it is fitted to the others."""
-    found = {name: np.zeros(len(points)) for name in QUANTITIES}
+    found = {name: np.zeros(len(points)) for name in points.names}
     for alpha in np.unique(points.alpha):
         here = points.alpha == alpha
         model = BlendModel(

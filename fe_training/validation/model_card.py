@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fe_training.markdown import markdown_table
-from fe_training.validation.model_errors import FORCE, MODELS, RATIOS, XIS, Errors
+from fe_training.validation.model_errors import FORCE, MODELS, RATIOS, SHORT, XIS, Errors
+from surrogate.contact.coordinates import SLIP_QUANTITIES
 from surrogate.contact.shipped import Fitted
 
 if TYPE_CHECKING:
@@ -16,10 +17,18 @@ if TYPE_CHECKING:
 
 __all__ = ["model_card"]
 
-_SYMBOLS = {"arc": "A", "normal_load": "B", "distance": "delta", FORCE: "F_ss"}
+_SYMBOLS = {
+    "arc": "A",
+    "normal_load": "B",
+    "distance": "delta",
+    "slip_arc": "A*",
+    "slip_load": "B*",
+    FORCE: "F_ss",
+}
 
 #: Goals: F_ss of the formula, F_ss of table and process, table against process.
 _FORMULA_GOAL, _FORCE_GOAL, _TABLE_GOAL = 0.05, 5e-3, 1e-4
+_SLIP_GOAL = 5e-3  # of A* and B*, where the tip does not touch
 _ONE_GOAL, _TWO_GOAL, _POINTS_GOAL = (0.60, 0.76), (0.92, 0.98), 60
 
 
@@ -108,6 +117,12 @@ def _goals(fitted: Fitted, found: Validation) -> str:
         _goal("F_ss of `gp`", worst("gp"), _FORCE_GOAL),
         _goal("`table` against `gp`", max(found.table_from_process.values()), _TABLE_GOAL),
     ]
+    short = tables["table"][SHORT]
+    rows += [
+        _goal(f"{_SYMBOLS[name]} of `table`, {SHORT}", short[name].largest, _SLIP_GOAL)
+        for name in SLIP_QUANTITIES
+        if name in short
+    ]
     shares = found.calibration.get("off the grid", {})
     for name in shares:
         for key, (low, high) in (("one", _ONE_GOAL), ("two", _TWO_GOAL)):
@@ -138,7 +153,7 @@ def _goal(what: str, value: float, goal: float) -> tuple[str, str, str, str]:
 
 def _bars(found: Validation) -> str:
     rows = [
-        (sample, *(_triple(bars[name]) for name in _SYMBOLS))
+        (sample, *(_triple(bars.get(name)) for name in _SYMBOLS))
         for sample, bars in found.finite_elements.items()
     ]
     return markdown_table(("sample", *_headings()), rows)
@@ -166,7 +181,12 @@ def _samples(found: Validation) -> Iterable[str]:
             continue
         yield f"Largest, 95 % and median relative errors. {note}"
         rows = [
-            (model, region, f"{errors['arc'].count}", *(_triple(errors[name]) for name in _SYMBOLS))
+            (
+                model,
+                region,
+                f"{errors['arc'].count}",
+                *(_triple(errors.get(name)) for name in _SYMBOLS),
+            )
             for model in MODELS
             for region, errors in tables[model].items()
         ]
@@ -238,9 +258,16 @@ def _formula(fitted: Fitted) -> Iterable[str]:
         "    B = B_w(g/(1 + g/e^b_1)) + b g^n\n"
         "    ln b = b_2 + b_3 y + b_4 y^2,  n = b_5 + b_6 y\n\n"
         "    delta/R_w = 1 + delta_w [1 - (g/g_touch)^c]^q  for g < g_touch, else 1\n"
-        "    c = c_1 + c_2 y,  q = c_3 + c_4 y"
+        "    c = c_1 + c_2 y,  q = c_3 + c_4 y\n\n"
+        "    A* as B with A_w in the place of B_w and d for b;  B* as B with e for b"
     )
-    letters = {"arc": "a", "normal_load": "b", "distance": "c"}
+    letters = {
+        "arc": "a",
+        "normal_load": "b",
+        "distance": "c",
+        "slip_arc": "d",
+        "slip_load": "e",
+    }
     rows = [
         (f"{letters[name]}_{i}", f"{value:.4g}")
         for name, values in fitted.constants.items()
@@ -288,8 +315,8 @@ def _touch(fitted: Fitted) -> Iterable[str]:
     yield markdown_table(("alpha", "g_touch found", "its standard error", "by the line"), rows)
 
 
-def _triple(errors: Errors) -> str:
-    if not errors.count:
+def _triple(errors: Errors | None) -> str:
+    if errors is None or not errors.count:
         return "-"
     return " / ".join(_number(100.0 * e) for e in (errors.largest, errors.most, errors.median))
 

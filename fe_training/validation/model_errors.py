@@ -14,12 +14,14 @@ from surrogate.choosing.auto import automatic_terms, choose_terms
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES, log_touch
+from surrogate.contact.fitted import FittedModel
 from surrogate.contact.shipped import Fitted
 
 __all__ = [
     "FORCE",
     "MODELS",
     "RATIOS",
+    "SHORT",
     "XIS",
     "Errors",
     "Validation",
@@ -47,6 +49,9 @@ FORCE = "force"
 
 #: The touch is near within this factor of g_touch.
 NEAR = 2.0
+
+#: The region in which A* and B* do not depend on the size of the tip.
+SHORT = "tip not in contact"
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,11 +92,12 @@ def the_models(fitted: Fitted) -> dict[str, ForceModel]:
 
 
 def contact_errors(model: ForceModel, points: FitPoints) -> dict[str, Floats]:
-    """Return the relative errors of A, B and delta of a model at points."""
-    found = model.contact(QUANTITIES, points.g, points.alpha)
+    """Return the relative errors of the functions of a model at points."""
+    names = points.names if isinstance(model, FittedModel) else QUANTITIES
+    found = model.contact(names, points.g, points.alpha)
     return {
         name: np.broadcast_to(value, points.g.shape) / getattr(points, name) - 1.0
-        for name, value in zip(QUANTITIES, found, strict=True)
+        for name, value in zip(names, found, strict=True)
     }
 
 
@@ -125,11 +131,7 @@ def force_errors(arc: Floats, load: Floats, points: FitPoints) -> dict[tuple[flo
 
 def finite_element_errors(points: FitPoints) -> dict[str, Floats]:
     """Return the finite elements' own relative error bars of A, B, delta and the worst force."""
-    own = {
-        "arc": points.arc_std / points.arc,
-        "normal_load": points.normal_load_std,
-        "distance": points.distance_std,
-    }
+    own = {name: points.relative_std(name) for name in points.names}
     return {**own, FORCE: np.maximum(own["arc"], own["normal_load"])}
 
 
@@ -143,6 +145,7 @@ def regions(fitted: Fitted, points: FitPoints) -> dict[str, Mask]:
         f"far field (g < g_touch/{NEAR:g})": x < -near,
         f"near the touch (within a factor of {NEAR:g})": np.abs(x) <= near,
         f"indentation (g > {NEAR:g} g_touch)": x > near,
+        SHORT: x < 0.0,
         "alpha up to 3": low,
         "alpha from 3 to 6": ~low & ~high,
         "alpha above 6": high,
@@ -189,7 +192,7 @@ def tables_of(
         forces = np.array(list(force_errors(errors["arc"], errors["normal_load"], points).values()))
         tables[model] = {
             region: {
-                **{name: summary(errors[name][mask]) for name in QUANTITIES},
+                **{name: summary(error[mask]) for name, error in errors.items()},
                 FORCE: summary(forces[:, mask].ravel()),
             }
             for region, mask in where.items()

@@ -21,6 +21,11 @@ class OneLineParser(argparse.ArgumentParser):
         super().__init__(**options)
         self._negative_number_matcher = re.compile(r"-\.?[0-9]")
 
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Print a help or version; that it cannot be printed is not passed over in silence."""
+        if message:
+            (file or sys.stderr).write(message)
+
     def error(self, message: str) -> NoReturn:
         """Refuse the arguments."""
         unit = re.fullmatch(r"unrecognized arguments: ([^\W\d_]{1,3}(?:[/^*²³\w]{0,5}))", message)
@@ -63,14 +68,16 @@ def run_command(
     Returns
     -------
     int
-        That of the action, or 2 after bad input or where a package is missing, with the reason in
-        one line on the standard error stream, or 130 after an interruption.
+        That of the action, or 2 after bad input, where a package is missing or the disk is full,
+        with the reason in one line on the standard error stream, or 130 after an interruption.
 
     Examples
     --------
     >>> run_command("wirecut", lambda: 0)
     0
     """
+    for stream in (sys.stdout, sys.stderr):
+        _print_whatever_the_console(stream)
     try:
         try:
             return action()
@@ -84,11 +91,27 @@ def run_command(
             raise
         return _refused(name, f"{package} is not installed; get it with: pip install '{install}'")
     except BrokenPipeError:  # the reader, such as head, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _print_nothing_more()
         return 0
+    except OSError as error:
+        if error.filename is None:
+            _print_nothing_more()
+        what = "what is printed" if error.filename is None else str(error.filename)
+        return _refused(name, f"{what} cannot be written or read ({error.strerror})")
     except KeyboardInterrupt:
         sys.stderr.write(f"\n{name}: interrupted\n")
         return 130
+
+
+def _print_whatever_the_console(stream: Any) -> None:
+    """Let letters that a console does not know be printed by their number, not end in an error."""
+    if getattr(stream, "errors", None) in ("strict", "surrogateescape"):
+        stream.reconfigure(errors="backslashreplace")
+
+
+def _print_nothing_more() -> None:
+    """Drop what waits to be printed, which would fail again when Python ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _refused(name: str, reason: str) -> int:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import wraps
+from io import BytesIO
 from os import PathLike
-from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from surrogate.basics.checks import shown
 from surrogate.basics.extras import require_extra
@@ -25,6 +29,7 @@ __all__ = [
     "SMALL",
     "WIDTHS",
     "figure_width",
+    "in_style",
     "legend_above",
     "new_axes",
     "new_figure",
@@ -32,8 +37,12 @@ __all__ = [
     "require_axes",
     "require_matplotlib",
     "save_figure",
+    "style",
     "write_svg",
 ]
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 SINGLE_COLUMN = (3.4, 2.9)
 """Width and height of a figure that fills one column of a journal [inch]."""
@@ -47,7 +56,12 @@ BLUE, RED, GREY = "#1f5fa8", "#c0392b", "#555555"
 ENDINGS = (".png", ".pdf", ".svg")
 
 # Text that journals can edit, and nothing that changes from run to run.
-_FILE_STYLE: Any = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "wirecut"}
+_STYLE: Any = {
+    "pdf.fonttype": 42,
+    "ps.fonttype": 42,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "wirecut",
+}
 _METADATA: dict[str, dict[str, Any]] = {
     ".pdf": {"CreationDate": None, "ModDate": None},
     ".svg": {"Date": None},
@@ -137,6 +151,37 @@ def figure_width(width: object) -> float:
     raise InputError(f"width must be 'single' or 'double', but is {shown(width)}; choose one.")
 
 
+@contextmanager
+def style() -> Iterator[None]:
+    """Have figures drawn and written in this style, whatever the user's settings of matplotlib are.
+
+    Examples
+    --------
+    >>> import matplotlib
+    >>> with matplotlib.rc_context({"text.usetex": True}), style():
+    ...     matplotlib.rcParams["text.usetex"]
+    False
+    """
+    require_matplotlib()
+    import matplotlib
+
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_STYLE)
+        yield
+
+
+def in_style(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """Return a function that draws and writes whole figures, so that it does it in `style`."""
+
+    @wraps(function)
+    def drawn(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        with style():
+            return function(*args, **kwargs)
+
+    return drawn
+
+
 def save_figure(figure: Figure, file: str | PathLike[str]) -> None:
     """Write a figure: equal figures give equal files, with text that stays text.
 
@@ -153,8 +198,10 @@ def save_figure(figure: Figure, file: str | PathLike[str]) -> None:
         If the format is unknown or the file cannot be written.
     """
     name = picture_file(file)
+    content = BytesIO()  # because matplotlib's PDF does not get over a full disk
+    _write(figure, content, PurePath(name).suffix.lower())
     with written_whole(name) as temporary:
-        _write(figure, temporary, PurePath(name).suffix.lower())
+        Path(temporary).write_bytes(content.getvalue())
 
 
 def write_svg(figure: Figure, stream: Any) -> None:
@@ -165,7 +212,7 @@ def write_svg(figure: Figure, stream: Any) -> None:
 def _write(figure: Figure, file: Any, ending: str) -> None:
     from matplotlib import rc_context
 
-    with rc_context(_FILE_STYLE):
+    with rc_context(_STYLE):
         figure.savefig(file, format=ending[1:], dpi=300, metadata=_METADATA[ending])
 
 

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import RTOL, one_number
-from surrogate.choosing.by_name import FITTED_NAMES, force_model, is_auto
+from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.contact.base import ForceModel
+from surrogate.contact.fitted import FittedModel
 from surrogate.errors import AccuracyError
 
 __all__ = ["contact_bounds", "contact_std", "one_model"]
@@ -45,7 +46,7 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
     >>> bool(0.0 < load < 0.05)
     True
     """
-    if model.name not in FITTED_NAMES:
+    if not isinstance(model, FittedModel):
         return None
     from surrogate.choosing.auto import available
 

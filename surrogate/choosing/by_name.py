@@ -28,7 +28,7 @@ def is_auto(name: object) -> bool:
 
 
 def force_model(name: object, argument: str = "model") -> ForceModel:
-    """Return the model of that name, which is not "auto".
+    """Return the model of that name, which is not "auto"; a model itself is returned as it is.
 
     Raises
     ------
@@ -37,6 +37,8 @@ def force_model(name: object, argument: str = "model") -> ForceModel:
     InputError
         If the model is a fitted one and its file is missing or damaged.
     """
+    if isinstance(name, ForceModel):
+        return name
     if isinstance(name, str) and name in FORCE_MODELS:
         return FORCE_MODELS[name]
     if isinstance(name, str) and name in FITTED_NAMES:
@@ -45,7 +47,8 @@ def force_model(name: object, argument: str = "model") -> ForceModel:
         )
 
         return shipped().models[name]
+    names = ", ".join((*FORCE_MODELS, *FITTED_NAMES, AUTO))
     raise UnknownModelError(
-        f"{argument} must be the name of a model, but {argument} = {shown(name)}; "
-        f"choose one of {', '.join((*FORCE_MODELS, *FITTED_NAMES, AUTO))}."
+        f"{argument} must be the name of a model or a ForceModel of one's own, but {argument} = "
+        f"{shown(name)}; choose one of {names}."
     )

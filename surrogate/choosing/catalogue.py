@@ -15,7 +15,7 @@ from surrogate.basics.records import Record
 from surrogate.choosing.by_name import FITTED_NAMES
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.contact.shipped import shipped
+from surrogate.contact.shipped import shipped, use
 from surrogate.errors import InputError
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "ONE",
     "ModelInfo",
     "by_cost",
+    "load_models",
     "models",
     "read_costs",
 ]
@@ -179,6 +180,47 @@ def models() -> tuple[ModelInfo, ...]:
         )
         for name, model in _by_name({**FORCE_MODELS, **known}).items()
     )
+
+
+def load_models(path: object = None) -> tuple[ModelInfo, ...]:
+    """Take fitted models from a file of one's own, in every call from now on.
+
+    The models "power-law", "table", "gp" and "auto" are then those of the file, as
+    ``regen-surrogate`` wrote it. On the command line ``--models PATH`` does the same, and for both
+    the environment variable WIRECUT_MODELS.
+
+    Parameters
+    ----------
+    path : str or path-like, optional
+        The file, or the folder that holds its ``surrogates.npz``, with its checksum beside it;
+        without it the shipped models are taken again.
+
+    Returns
+    -------
+    tuple of ModelInfo
+        All models, as `models` lists them. Costs are those measured with the shipped ones.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, changed since it was fitted, or of a newer version; the
+        models that were in use before stay.
+
+    Notes
+    -----
+    Range of validity: that of the file's own domain, which `models` tells.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (S1) and (S2), whose A and B the models are.
+
+    Examples
+    --------
+    >>> len(load_models()) == len(models())
+    True
+    """
+    use(path)
+    return models()
 
 
 def _by_name(known: Mapping[str, ForceModel]) -> dict[str, ForceModel | None]:

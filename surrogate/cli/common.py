@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from textwrap import fill
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from surrogate.errors import InputError
-from surrogate.reading.units import NUMBER, Dimension, parse_quantity
+from surrogate.reading.units import NUMBER, Dimension, parse_number, parse_quantity
 
 __all__ = ["wire_rows"]
 
@@ -30,30 +31,43 @@ def wire_rows(**columns: Any) -> list[Record]:
     ]
 
 
-def quantity(dimension: Dimension) -> Callable[[str], float]:
+def quantity(dimension: Dimension, signed: bool = False) -> Callable[[str], float]:
+    """Return what reads a number with its unit from the command line."""
+
     def parse(text: str) -> float:
         try:
-            return parse_quantity(text, dimension)
+            value = parse_quantity(text, dimension)
         except InputError as error:
             raise argparse.ArgumentTypeError(str(error).rstrip(".")) from None
+        if math.isinf(value):
+            raise argparse.ArgumentTypeError(f"{text!r} is beyond a computer's range")
+        if value < 0.0 and not signed:
+            raise argparse.ArgumentTypeError(f"{text!r} is negative, which it cannot be")
+        return value
 
     return parse
 
 
-def percent(text: str) -> float:
+def share(text: str) -> float:
     """Return a share that may be written with a percent sign.
 
     Examples
     --------
-    >>> percent("5%"), percent("0.05")
+    >>> share("5%"), share("0.05")
     (0.05, 0.05)
     """
-    share = text.strip().removesuffix("%")
+    number = parse_number(text.strip().removesuffix("%").rstrip())
+    if number is None or math.isinf(number):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05")
+    return number / 100.0 if text.strip().endswith("%") else number
+
+
+def whole_number(text: str) -> int:
+    """Return a whole number."""
     try:
-        value = float(share)
+        return int(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a share; write 5% or 0.05") from None
-    return value / 100.0 if text.strip().endswith("%") else value
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
 
 
 def add_friction_and_stiffening(
@@ -76,7 +90,7 @@ def add_model_option(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--rtol",
-        type=quantity(NUMBER),
+        type=share,
         default=0.02,
         metavar="ERROR",
         help="relative error that will do with --model auto (default 0.02)",
@@ -98,6 +112,18 @@ def print_record(
         print(json.dumps(_finite(record), indent=2, allow_nan=False))
         return
     print(text(record))
+
+
+def print_answer(options: argparse.Namespace, record: Record, text: Callable[[Record], str]) -> int:
+    """Print an answer and what is doubted about it, and return the exit code."""
+    doubts = record["warnings"]
+    print_record(options, record, lambda record: "\n".join([text(record), *_warnings(doubts)]))
+    return DOUBTED if doubts else 0
+
+
+def _warnings(doubts: Sequence[str]) -> Iterator[str]:
+    for doubt in doubts:
+        yield fill(f"Warning: {doubt}.", 96, subsequent_indent="  ")
 
 
 def _finite(value: Any) -> Any:

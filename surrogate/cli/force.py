@@ -16,14 +16,17 @@ from surrogate.cli.common import (
     add_extrapolate_option,
     add_friction_and_stiffening,
     add_model_option,
+    print_answer,
     print_record,
     quantity,
+    share,
     wire_rows,
 )
 from surrogate.cutting.force import CuttingForce, cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, SPLIT_MODEL, Regime, classify
 from surrogate.errors import DomainError
-from surrogate.reading.units import LENGTH, NUMBER, STRESS, TOUGHNESS
+from surrogate.reading.plausibility import doubts_of_scene
+from surrogate.reading.units import LENGTH, STRESS, TOUGHNESS
 from surrogate.scene import Scene
 
 __all__ = [
@@ -49,7 +52,7 @@ def force_record(scene: Scene, force: CuttingForce) -> Record:
         relative_error=math.nan if force.relative_error is None else force.relative_error,
         in_domain=force.in_domain,
     )
-    return {"model": force.model, "wires": wires}
+    return {"model": force.model, "wires": wires, "warnings": doubts_of_scene(scene.values())}
 
 
 def force_text(record: Record) -> str:
@@ -87,7 +90,8 @@ def regime_record(scene: Scene, regime: Regime, model: str) -> Record:
         dominant=regime.dominant,
         contact=regime.contact,
     )
-    return {"model": model, "threshold": regime.threshold, "wires": wires}
+    doubts = doubts_of_scene(scene.values())
+    return {"model": model, "threshold": regime.threshold, "wires": wires, "warnings": doubts}
 
 
 def _dimensionless_toughness(scene: Scene) -> FloatOrArray:
@@ -186,7 +190,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     command.add_argument(
         "--threshold",
-        type=quantity(NUMBER),
+        type=share,
         default=DOMINANT_SHARE,
         metavar="SHARE",
         help="share of the force from which a term dominates (default 2/3)",
@@ -207,17 +211,17 @@ def _scene(options: argparse.Namespace) -> Scene:
     )
 
 
-def run_force(options: argparse.Namespace) -> None:
+def run_force(options: argparse.Namespace) -> int:
     scene = _scene(options)
     force = cutting_force(scene, options.model, options.rtol, options.extrapolate)
-    print_record(options, force_record(scene, force), force_text)
+    return print_answer(options, force_record(scene, force), force_text)
 
 
-def run_regime(options: argparse.Namespace) -> None:
+def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
     regime = classify(scene, options.threshold, options.model, options.rtol, options.extrapolate)
     record = regime_record(scene, regime, options.model)
-    print_record(options, record, regime_text)
+    return print_answer(options, record, regime_text)
 
 
 def run_models(options: argparse.Namespace) -> None:

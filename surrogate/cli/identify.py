@@ -14,9 +14,9 @@ from surrogate.cli.common import (
     DOUBTED,
     add_friction_and_stiffening,
     add_model_option,
-    percent,
     print_record,
     quantity,
+    share,
 )
 from surrogate.cli.identification_text import identification_record, identification_text
 from surrogate.cli.steady import add_record_options, cuts_by_options
@@ -113,7 +113,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         )
     add(
         "--relative-error",
-        type=percent,
+        type=share,
         metavar="SHARE",
         help="standard error of every force where only that is known: 5%%",
     )
@@ -134,7 +134,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_model_option(command)
     add(
         "--confidence",
-        type=quantity(NUMBER),
+        type=share,
         default=0.95,
         metavar="P",
         help="probability of the intervals (default 0.95)",
@@ -149,7 +149,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_record_options(command)
 
 
-_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "columns")
+_OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "columns")
 
 
 def _outputs(options: argparse.Namespace) -> dict[str, str | None]:

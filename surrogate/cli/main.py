@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+import warnings
 from collections.abc import Sequence
+from contextlib import nullcontext
 from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
 from surrogate.cli import map as cli_map
-from surrogate.cli.common import print_record, quantity
+from surrogate.cli.common import print_answer, print_record
 from surrogate.cli.design import add_design_options, run_design
 from surrogate.cli.force import (
     add_force_options,
@@ -20,11 +22,25 @@ from surrogate.cli.force import (
     run_regime,
 )
 from surrogate.cli.identify import add_identify_options, run_identify
+from surrogate.cli.language import in_options
 from surrogate.cli.steady import add_steady_options, run_steady
+from surrogate.contact.shipped import in_use
+from surrogate.errors import ImplausibleInputWarning, WirecutError
 
 _UNITS = """\
 Quantities carry their unit, without a space or in quotes: 0.2mm, "0.2 mm", 7.75kPa, 1.6J/m2.
 A number alone is in SI units (m, Pa, J/m2)."""
+
+_EXIT_CODES = """\
+Exit code: 0, or 2 after bad input, or 3 where a printed warning says not to use the answer"""
+
+_DOUBTED = {
+    "force": "(a quantity that is hardly that of a cut, such as a wire 0.4 m thick).",
+    "regime": "(a quantity that is hardly that of a cut, such as a wire 0.4 m thick).",
+    "map": "(what is fixed is hardly that of a cut, such as a modulus of 0.3 Pa).",
+    "identify": "(a measured quantity is hardly that of a cut, or a record has no steady force).",
+    "steady": "(records without a steady force).",
+}
 
 _DESCRIPTIONS = {
     "wirecut": "Wire cutting of soft solids: forces, toughness and regimes (arXiv:2412.02021).",
@@ -148,7 +164,13 @@ def _run(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     complete(parser)
     options = parser.parse_args(arguments)
-    return options.run(options) or 0
+    models = in_use(options.models) if options.models else nullcontext()
+    try:
+        with models, warnings.catch_warnings():  # the commands print the doubts with their answers
+            warnings.simplefilter("ignore", ImplausibleInputWarning)
+            return options.run(options) or 0
+    except WirecutError as error:
+        raise WirecutError(in_options(str(error), options.parser)) from error
 
 
 class _Parser(OneLineParser):
@@ -158,11 +180,18 @@ class _Parser(OneLineParser):
         name = options["prog"].split()[-1]
         super().__init__(
             description=_DESCRIPTIONS[name],
-            epilog=_EXAMPLES[name],
+            epilog=_epilog(name),
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
             **options,
         )
+
+
+def _epilog(name: str) -> str:
+    """Return the end of a command's help: examples, and what its exit code says."""
+    if name not in _DOUBTED:
+        return _EXAMPLES[name]
+    return f"{_EXAMPLES[name]}\n{_EXIT_CODES}\n{_DOUBTED[name]}"
 
 
 class _Version(argparse.Action):
@@ -185,7 +214,7 @@ def _parser() -> argparse.ArgumentParser:
         ("identify", add_identify_options, run_identify),
         ("design", add_design_options, run_design),
         ("regime", add_regime_options, run_regime),
-        ("map", lambda command: cli_map.add_options(command, quantity), run_map),
+        ("map", lambda command: cli_map.add_options(command), run_map),
         ("models", lambda command: None, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):
@@ -196,12 +225,15 @@ def _parser() -> argparse.ArgumentParser:
             action="store_true",
             help="print JSON in SI units, null for what is unknown or infinite",
         )
-        command.set_defaults(run=run)
+        command.add_argument(
+            "--models", metavar="PATH", help="take the fitted models of this file or folder"
+        )
+        command.set_defaults(run=run, parser=command)
     return parser
 
 
-def run_map(options: argparse.Namespace) -> None:
-    print_record(options, cli_map.map_record(options), cli_map.map_text)
+def run_map(options: argparse.Namespace) -> int:
+    return print_answer(options, cli_map.map_record(options), cli_map.map_text)
 
 
 def run_doctor(options: argparse.Namespace) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from textwrap import fill
 from types import MappingProxyType
@@ -13,10 +13,12 @@ import numpy as np
 
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
+from surrogate.cli.common import share, whole_number
 from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
 from surrogate.maps.axes import COORDINATES, coordinate
+from surrogate.maps.belonging import require_the_same
 from surrogate.maps.make import RegimeMap, regime_map
 from surrogate.maps.points import MapPoints
 from surrogate.maps.tables import map_summary
@@ -127,9 +129,7 @@ examples:
 """
 
 
-def add_options(
-    command: argparse.ArgumentParser, quantity: Callable[[Dimension], Callable[[str], float]]
-) -> None:
+def add_options(command: argparse.ArgumentParser) -> None:
     """Add the options of the command to its parser."""
     add = command.add_argument
     add("--preset", choices=PRESETS, metavar="PRESET", help="a map that is often wanted, see below")
@@ -143,8 +143,14 @@ def add_options(
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
         ("--rtol", "ERROR", 0.02, "error that will do with --model auto (default 0.02)"),
     ):
-        add(option, type=quantity(NUMBER), default=default, metavar=metavar, help=words)
-    add("--nodes", type=int, default=201, metavar="N", help="nodes of each axis (default 201)")
+        add(option, type=share, default=default, metavar=metavar, help=words)
+    add(
+        "--nodes",
+        type=whole_number,
+        default=201,
+        metavar="N",
+        help="nodes of each axis (default 201)",
+    )
     add("--limits", nargs="+", default=[], metavar="MODEL", help="limits whose end is drawn")
     add("--error-of", metavar="MODEL", help="show this model's error beside the map's model")
     add("--no-contact", action="store_true", help="leave out where the wire touches the tip")
@@ -163,15 +169,18 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
             "--boundaries-csv": options.boundaries_csv,
         }
     )
+    for option, value in (("--limits", options.limits), ("--error-of", options.error_of)):
+        if value and not options.out:
+            raise InputError(f"{option} is for the picture; give --out as well, or leave it out.")
     made = run_map(options)
-    preset = PRESETS.get(options.preset)
+    points, notes = _points(PRESETS.get(options.preset), made)
     if options.out:
         from surrogate.maps.figure import save_regime_map
 
         save_regime_map(
             made,
             options.out,
-            _example() if preset is not None and preset.example else (),
+            points,
             limits=options.limits,
             contact=not options.no_contact,
             error_of=options.error_of,
@@ -182,7 +191,9 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     if options.boundaries_csv:
         made.boundaries_to_csv(options.boundaries_csv)
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
-    return {**map_summary(made), "files": files}
+    return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | (
+        {"notes": notes} if options.out else {"notes": []}
+    )
 
 
 def map_text(made: dict[str, Any]) -> str:
@@ -212,6 +223,7 @@ def map_text(made: dict[str, Any]) -> str:
         f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
         table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
     ]
+    parts += [f"Note: {note}" for note in made["notes"]]
     if made["files"]:
         parts.append(f"Written: {', '.join(made['files'])}")
     return "\n\n".join(parts)
@@ -257,6 +269,19 @@ def _fixed(items: list[str]) -> dict[str, float]:
         one = coordinate(name.strip())
         fixed[one.name] = parse_quantity(text, _DIMENSIONS[one.unit])
     return fixed
+
+
+def _points(preset: Preset | None, made: RegimeMap) -> tuple[list[MapPoints], list[str]]:
+    """Return what a preset has to draw on a map, or a note why that does not belong there."""
+    if preset is None or not preset.example:
+        return [], []
+    points = _example()
+    try:
+        for one in points:
+            require_the_same(one, made)
+    except InputError as error:
+        return [], [f"the experiment is left out of the picture: {error}"]
+    return points, []
 
 
 def _example() -> list[MapPoints]:

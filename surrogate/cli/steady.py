@@ -12,10 +12,10 @@ import numpy as np
 from surrogate.basics.figures import picture_file
 from surrogate.basics.files import check_outputs, write_csv
 from surrogate.basics.records import number, table
-from surrogate.cli.common import DOUBTED, Record, print_record, quantity
+from surrogate.cli.common import DOUBTED, Record, print_record, quantity, share
 from surrogate.errors import InputError
 from surrogate.reading.cuts import Cut, cuts_of, measurements_of, record_files
-from surrogate.reading.units import FORCE, LENGTH, NUMBER
+from surrogate.reading.units import FORCE, LENGTH, SPEED
 from surrogate.reading.wires import Wire, wires_by_name, wires_by_table
 
 __all__ = ["add_record_options", "add_steady_options", "cuts_by_options", "run_steady"]
@@ -26,17 +26,35 @@ def add_record_options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--name", metavar="PATTERN", help="how files are named: 'wire_{diameter}mm_{trial}'")
     add("--wires", metavar="TABLE", help="table of file and wire_diameter_mm, instead of --name")
-    add("--tare", type=quantity(FORCE), metavar="F", help="constant force to subtract (default 0)")
-    add("--from", dest="start", type=quantity(LENGTH), metavar="X", help="begin of the plateau")
-    add("--to", dest="end", type=quantity(LENGTH), metavar="X", help="end of the plateau")
+    add(
+        "--tare",
+        type=quantity(FORCE, signed=True),
+        metavar="F",
+        help="constant force to subtract (default 0)",
+    )
+    add(
+        "--from",
+        dest="start",
+        type=quantity(LENGTH, signed=True),
+        metavar="X",
+        help="begin of the plateau",
+    )
+    add(
+        "--to",
+        dest="end",
+        type=quantity(LENGTH, signed=True),
+        metavar="X",
+        help="end of the plateau",
+    )
     add(
         "--tolerance",
-        type=quantity(NUMBER),
+        type=share,
         default=0.05,
         metavar="PART",
         help="change of force along a plateau that counts as none (default 0.05)",
     )
     add("--sign", choices=("positive", "negative"), help="how files count the force that cuts")
+    add("--speed", type=quantity(SPEED), metavar="V", help="of the cut, for files without travel")
     add("--columns", metavar="NAMES", help="names of all columns: time_s,displacement_mm,force_N")
 
 
@@ -74,6 +92,7 @@ def cuts_by_options(
         plateau | {"tare": options.tare or 0.0},
         columns=options.columns,
         sign=options.sign,
+        speed=options.speed,
         decimal=options.decimal,
         delimiter=options.delimiter,
         encoding=options.encoding,
@@ -170,10 +189,23 @@ def _text(record: Record) -> str:
         parts += [f"  {reason}" for reason in record["not_steady"]]
     parts += _notes(record["cuts"])
     parts += ["How the files were understood:"]
-    parts += [f"  {row['understood']}" for row in record["cuts"] if row["understood"]]
+    parts += _understood(record["cuts"])
     parts += [f"not a record: {', '.join(record['passed_over'])}"] * bool(record["passed_over"])
     parts += [f"Written: {record[name]}" for name in ("table", "picture") if record[name]]
     return "\n".join(parts)
+
+
+def _understood(rows: list[Record]) -> list[str]:
+    """Return how files were understood, once for all that were understood alike."""
+    places: dict[str, list[str]] = {}
+    for row in rows:
+        place, colon, text = row["understood"].partition(": ")
+        if colon:
+            places.setdefault(text, []).append(place)
+    return [
+        f"  {first}{f' and {len(others)} more' if others else ''}: {text}"
+        for text, (first, *others) in places.items()
+    ]
 
 
 def _cells(row: Record) -> list[str]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surrogate.basics.figures import GREY, RED, SMALL, WIDTHS, new_figure, save_figure
+from surrogate.basics.figures import GREY, RED, SMALL, WIDTHS, in_style, new_figure, save_figure
 from surrogate.reading.cuts import Cut
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ __all__ = ["save_steady"]
 _COLUMNS, _HEIGHT = 4, 1.45
 
 
+@in_style
 def save_steady(cuts: Sequence[Cut], file: str) -> None:
     """Draw the force over the displacement of every record that could be read.
 

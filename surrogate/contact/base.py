@@ -20,6 +20,7 @@ import numpy as np
 
 from surrogate.basics.checks import Quantity
 from surrogate.basics.elementwise import product, quotient, ratio, where
+from surrogate.contact.coordinates import QUANTITIES
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 
 __all__ = ["ForceModel"]
@@ -39,6 +40,7 @@ class ForceModel(ABC):
     stiffening: Quantity  # the alpha that the model accepts
     g: Quantity = DIMENSIONLESS_TOUGHNESS  # and the g
     uncertain = False  # whether it knows its standard deviations
+    functions: tuple[str, ...] = QUANTITIES  # the names that `contact` takes
 
     @abstractmethod
     def arc(self, g: Any, alpha: Any) -> Any:
@@ -80,6 +82,14 @@ class ForceModel(ABC):
     def holds(self, g: Any, alpha: Any) -> Any:
         """Return whether the model holds at g and alpha, as far as these decide."""
         return True
+
+    def highest_g(self, alpha: Any) -> Any:
+        """Return the highest g at which the model holds at alpha [-]."""
+        return self.g.upper
+
+    def ends(self, alpha: Any) -> tuple[Any, Any]:
+        """Return the lowest and the highest g at which the model holds at alpha [-]."""
+        return self.g.lower, self.highest_g(alpha)
 
     def stds(self, names: Sequence[str], g: Any, alpha: Any) -> list[Any]:
         """Return the standard deviations of the functions named; none where the model has none."""

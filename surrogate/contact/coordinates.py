@@ -6,7 +6,8 @@ x = ln(g/g_touch): functions of the three may bend at the touch. The quantities 
     ln(A/A_wedge),   ln(B/B_wedge),   ln[(delta/R_w - 1)/(|x|^(7/4) delta_wedge/R_w)],
 
 the last one short of the touch only. It is finite there, because delta reaches R_w with a vertex of
-about that power; beyond, delta is R_w.
+about that power; beyond, delta is R_w. The slip arc A* and the slip load B* are taken like A and B,
+which they become in the far field, where the face is not stretched.
 
 Where the crack tip begins to touch the wire, and the coordinates that this gives the fits.
 
@@ -24,9 +25,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["POWER", "QUANTITIES", "coordinates", "log_touch", "log_touch_slope", "vertex"]
+__all__ = [
+    "POWER",
+    "QUANTITIES",
+    "SLIP_QUANTITIES",
+    "coordinates",
+    "log_touch",
+    "log_touch_slope",
+    "vertex",
+]
 
 QUANTITIES = ("arc", "normal_load", "distance")
+SLIP_QUANTITIES = ("slip_arc", "slip_load")
 POWER = 1.75
 
 

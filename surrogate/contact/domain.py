@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -10,13 +11,16 @@ from typing import Any
 import numpy as np
 
 from surrogate.basics.checks import STIFFENING_EXPONENT, FloatOrArray, Quantity
-from surrogate.basics.elementwise import quotient
+from surrogate.basics.elementwise import exp, log, quotient, where
 from surrogate.contact.base import ForceModel
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 from surrogate.errors import DomainError
 
-__all__ = ["Domain", "require_inside"]
+__all__ = ["Domain", "require_below_highest", "require_inside"]
+
+#: The highest g may be missed by this factor, as it comes from a logarithm.
+_ROUNDING = 1.0 + 1e-12
 
 
 @dataclass(frozen=True)
@@ -29,24 +33,29 @@ class Domain:
         Ends in Gamma_o/(mu R_w) and in the stiffening exponent [-].
     touch : tuple of float
         Coefficients of ln g_touch in powers of ln alpha.
-    growth : tuple of float
-        Coefficients of d ln B/d ln g above the highest g, in powers of ln alpha.
+    growth : mapping of str to tuple of float
+        By function, coefficients of d ln/d ln g above the highest g, in powers of ln alpha; a
+        function that is not named stays as it is at the highest g.
+    highest : tuple of tuple of float
+        Pairs of alpha, rising, and the highest g there; ln g is straight in ln alpha between
+        them and constant beyond. Without any the end in g is the same for all alphas.
 
     Examples
     --------
-    >>> domain = Domain((0.01, 100.0), (2.0, 9.0), (0.5,), (1.1,))
-    >>> domain.holds(1.0, 2.0), domain.holds(1e-3, 2.0)
-    (True, False)
+    >>> domain = Domain((0.01, 1e3), (2.0, 9.0), (0.5,), {}, ((3.0, 100.0), (5.0, 1e3)))
+    >>> domain.holds(1.0, 2.0), domain.holds(500.0, 2.0), domain.holds(500.0, 6.0)
+    (True, False, True)
     """
 
     g: tuple[float, float]
     alpha: tuple[float, float]
     touch: tuple[float, ...]
-    growth: tuple[float, ...]
+    growth: Mapping[str, tuple[float, ...]]
+    highest: tuple[tuple[float, float], ...] = ()
 
     @cached_property
     def log_g(self) -> tuple[float, float]:
-        """The ends in ln g."""
+        """The ends in ln g; the upper one is the farthest of all alphas."""
         return float(np.log(self.g[0])), float(np.log(self.g[1]))
 
     @cached_property
@@ -66,23 +75,68 @@ class Domain:
         remedy = "or extrapolate=True for the nearest end, or model='eq13'"
         return _within(STIFFENING_EXPONENT, self.alpha, remedy)
 
+    @cached_property
+    def _nodes(self) -> tuple[list[float], list[float]]:
+        alpha, g = zip(*self.highest, strict=True)
+        return [math.log(a) for a in alpha], [math.log(each) for each in g]
+
+    @cached_property
+    def _shared(self) -> tuple[float, float]:
+        """The ends in ln g that all alphas share."""
+        return self.log_g[0], min(self._nodes[1]) if self.highest else self.log_g[1]
+
+    def log_highest(self, log_alpha: Any) -> Any:
+        """Return ln of the highest g at ln alpha inside the domain."""
+        if not self.highest:
+            return self.log_g[1]
+        value = np.interp(log_alpha, *self._nodes)
+        return float(value) if type(log_alpha) is float else value
+
+    def log_highest_slope(self, log_alpha: Any) -> Any:
+        """Return d ln/d ln alpha of the highest g, from above where it bends."""
+        if not self.highest:
+            return 0.0
+        at, values = self._nodes
+        slopes = np.concatenate([[0.0], np.diff(values) / np.diff(at), [0.0]])
+        slope = slopes[np.searchsorted(at, log_alpha, side="right")]
+        return float(slope) if type(log_alpha) is float else slope
+
+    def highest_g(self, alpha: Any) -> Any:
+        """Return the highest g at alpha, or at the nearest end of the domain."""
+        if not self.highest:
+            return self.g[1]
+        row = _clamped(log(alpha), *self.log_alpha)
+        return exp(self.log_highest(row))
+
     def holds(self, g: Any, alpha: Any) -> Any:
         """Return whether points are inside; nan is not."""
         low, high = self.g
         first, last = self.alpha
-        return (g >= low) & (g <= high) & (alpha >= first) & (alpha <= last)
+        inside = (g >= low) & (g <= high) & (alpha >= first) & (alpha <= last)
+        if self.highest and np.any(inside):
+            inside = inside & (g <= self.highest_g(where(inside, alpha, first)) * _ROUNDING)
+        return inside
 
     def surrounds(self, log_g: Any, log_alpha: Any) -> bool:
         """Return whether all points are inside."""
         if type(log_g) is float and type(log_alpha) is float:  # the same, and quicker
-            low, high = self.log_g
+            low, high = self._shared
             first, last = self.log_alpha
-            return low <= log_g <= high and first <= log_alpha <= last
-        return _between(log_g, self.log_g) and _between(log_alpha, self.log_alpha)
+            if not first <= log_alpha <= last:
+                return False
+            return low <= log_g <= high or low <= log_g <= self.log_highest(log_alpha)
+        if not _between(log_alpha, self.log_alpha):
+            return False
+        if _between(log_g, self._shared):
+            return True
+        if not self.highest or not _between(log_g, self.log_g):
+            return False
+        return bool(np.all(log_g <= self.log_highest(log_alpha)))
 
     def clamped(self, log_g: Any, log_alpha: Any) -> tuple[Any, Any]:
         """Return the nearest points inside."""
-        return _clamped(log_g, *self.log_g), _clamped(log_alpha, *self.log_alpha)
+        row = _clamped(log_alpha, *self.log_alpha)
+        return _clamped(log_g, self.log_g[0], self.log_highest(row)), row
 
     def log_touch(self, log_alpha: Any) -> Any:
         """Return ln g_touch at ln alpha inside the domain."""
@@ -93,10 +147,12 @@ class Domain:
         return log_touch(self.touch, log_alpha), log_touch_slope(self.touch, log_alpha)
 
     def __str__(self) -> str:
-        return (
-            f"g from {self.g[0]:g} to {self.g[1]:g}, "
-            f"alpha from {self.alpha[0]:g} to {self.alpha[1]:g}"
-        )
+        ends = f"{self.g[1]:g}"
+        if self.highest:
+            steps = {g: alpha for alpha, g in reversed(self.highest)}
+            ends = ", ".join(f"{g:g} (alpha from {steps[g]:g})" for g in sorted(steps)[1:])
+            ends = f"{min(steps):g}, {ends}"
+        return f"g from {self.g[0]:g} to {ends}, alpha from {self.alpha[0]:g} to {self.alpha[1]:g}"
 
 
 def _within(quantity: Quantity, ends: tuple[float, float], remedy: str) -> Quantity:
@@ -159,8 +215,8 @@ def require_inside(model: ForceModel, values: tuple[FloatOrArray, ...]) -> None:
     )
     some = model.stiffening.lower
     model.stiffening.checked(_plain(np.where(matters, alpha, some)))
-    low, high = model.g.lower, model.g.upper
-    outside = matters & ~((g >= low) & (g <= high))
+    low = model.g.lower
+    outside = matters & ~model.holds(g, alpha)
     index = tuple(int(i) for i in np.argwhere(outside)[0]) if shape else ()
     where = f"[{', '.join(map(str, index))}]" if index else ""
     given = ", ".join(
@@ -168,10 +224,26 @@ def require_inside(model: ForceModel, values: tuple[FloatOrArray, ...]) -> None:
         for (name, unit), value in zip(_NAMES, values, strict=False)
     )
     many = f", {np.count_nonzero(outside)} of {outside.size} values" if shape else ""
+    high = model.highest_g(float(alpha[index]))
     raise DomainError(
         f"g = Gamma_o/(mu R_w) must be from {low:g} to {high:g} for the model {model.name!r}, but "
         f"g{where} = {float(g[index]):.4g} (from {given}{many}); change the scene, give "
         "extrapolate=True to continue with the asymptotes, or choose model='eq13'."
+    )
+
+
+def require_below_highest(model: ForceModel, g: Any, alpha: Any) -> None:
+    """Raise a `DomainError` where g is above what a model has at its alpha."""
+    inside = model.holds(g, alpha)
+    if inside is True or np.all(inside):
+        return
+    at = np.broadcast_arrays(inside, g, alpha)
+    first = int(np.argmin(at[0]))
+    g, alpha = (float(np.ravel(each)[first]) for each in at[1:])
+    raise DomainError(
+        f"g must be in {model.domain} for the model {model.name!r}, but g = {g:.4g} at alpha = "
+        f"{alpha:.4g} is not; give extrapolate=True to continue with the asymptotes, or choose "
+        "model='eq13'."
     )
 
 

@@ -5,7 +5,8 @@ from the nearest point inside, without a step:
 
 - at lower g towards the far-field wedge: the logarithm of the ratio to it falls as p, which is
   proportional to the square of the contact's width, the order of the first correction;
-- at higher g as A = constant and B ~ g^n(alpha), and delta follows its vertex to the touch;
+- at higher g as A = constant, B, A* and B* as powers g^n(alpha), and delta follows its vertex to
+  the touch;
 - at other alpha with the value at the nearest end.
 
 All methods work on validated floats as well as on float64 arrays, with one alpha or as many as g.
@@ -15,14 +16,21 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from surrogate.basics.checks import STIFFENING_EXPONENT, Quantity
 from surrogate.basics.elementwise import exp, log, product, quotient, where
 from surrogate.contact.base import ForceModel
-from surrogate.contact.coordinates import QUANTITIES, log_touch, log_touch_slope, vertex
+from surrogate.contact.coordinates import (
+    QUANTITIES,
+    SLIP_QUANTITIES,
+    log_touch,
+    log_touch_slope,
+    vertex,
+)
 from surrogate.contact.domain import Domain
 from surrogate.contact.wedge import (
     wedge_functions,
@@ -32,7 +40,10 @@ from surrogate.contact.wedge import (
 )
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 
-__all__ = ["FittedModel", "in_blocks", "toughness_of"]
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+__all__ = ["PROJECTED", "SLIP", "TERMS_OF_LAW", "FittedModel", "in_blocks", "toughness_of"]
 
 # Between these, ln of ln(g_touch/g): from g equal to g_touch in all digits to the smallest float.
 _NEAREST, _FARTHEST = -36.0, 6.7
@@ -102,17 +113,34 @@ def _height(distance: Any) -> Any:
         return log(float(inner) if type(distance) is float else inner)
 
 
+PROJECTED, SLIP = "projected", "slip"
+"""The laws of dissipation: Eq. (S2) of the paper, and the balance of energy to first order."""
+
+TERMS_OF_LAW = {PROJECTED: QUANTITIES[:2], SLIP: SLIP_QUANTITIES}
+"""Names of the functions that wear and friction follow under each law."""
+
 BLOCK = 2**14  # points at a time, whose temporaries stay in the cache
 _ARC, _LOAD, _DISTANCE = QUANTITIES
 
 
 class FittedModel(ForceModel):
-    """A model of A, B and delta that was fitted to finite-element solutions.
+    """A model of A, B, delta, A* and B* that was fitted to finite-element solutions.
 
     `limits` is its domain; `inside` and `inside_slopes` are what the kinds of models differ in.
+    Under the law "slip", `arc` and `normal_load` are A* and B*.
     """
 
     limits: Domain
+    law: str = PROJECTED
+
+    def under(self, law: str) -> Self:
+        """Return the model under another law of dissipation."""
+        return self if law == self.law else replace(self, law=law)  # type: ignore[type-var]
+
+    @property
+    def _terms(self) -> tuple[str, str]:
+        """Names of the functions that wear and friction follow."""
+        return TERMS_OF_LAW[self.law]
 
     @abstractmethod
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
@@ -138,10 +166,10 @@ class FittedModel(ForceModel):
         return self.limits.alpha_quantity
 
     def arc(self, g: Any, alpha: Any) -> Any:
-        return self.contact((_ARC,), g, alpha)[0]
+        return self.contact((self._terms[0],), g, alpha)[0]
 
     def normal_load(self, g: Any, alpha: Any) -> Any:
-        return self.contact((_LOAD,), g, alpha)[0]
+        return self.contact((self._terms[1],), g, alpha)[0]
 
     def distance(self, g: Any, alpha: Any) -> Any:
         return self.contact((_DISTANCE,), g, alpha)[0]
@@ -153,6 +181,9 @@ class FittedModel(ForceModel):
 
     def holds(self, g: Any, alpha: Any) -> Any:
         return self.limits.holds(g, alpha)
+
+    def highest_g(self, alpha: Any) -> Any:
+        return self.limits.highest_g(alpha)
 
     def accepted(self, extrapolate: bool) -> tuple[Quantity, Quantity]:
         return (
@@ -178,7 +209,7 @@ class FittedModel(ForceModel):
             return self.inside(names, log_g, log_alpha, g)
         at, row = self.limits.clamped(log_g, log_alpha)
         values = self.inside(names, at, row, g)
-        low, high = self.limits.log_g
+        low, high = self.limits.log_g[0], self.limits.log_highest(row)
         if _all(log_g >= low) and _all(log_g <= high):
             return values
         continued = [self._continued(*each, at, row, log_g) for each in zip(names, values)]  # noqa: B905
@@ -187,17 +218,17 @@ class FittedModel(ForceModel):
 
     def _continued(self, name: str, value: Any, at: Any, row: Any, log_g: Any) -> Any:
         """Return what a function becomes away from its nearest value inside, at ln g = `at`."""
-        low, high = self.limits.log_g
+        low, high = self.limits.log_g[0], self.limits.log_highest(row)
         far = where(log_g < low, log_g, low)
         p, seam = wedge_load(far), wedge_load(low)
         ratio = log(value) - log(wedge_functions(low, seam)[name])
         with np.errstate(all="ignore"):
             below = wedge_functions(far, p)[name] * exp(ratio * (p / seam))
             over = where(log_g > high, log_g - high, 0.0)
-            if name == _ARC:
+            if name in self.limits.growth:
+                above = value * exp(log_touch(self.limits.growth[name], row) * over)
+            elif name != _DISTANCE:
                 above = value
-            elif name == _LOAD:
-                above = value * exp(log_touch(self.limits.growth, row) * over)
             else:
                 x = self.limits.log_touch(row) - at
                 left = where(x > over, 1.0 - over / where(x > 0.0, x, 1.0), 0.0)
@@ -205,13 +236,13 @@ class FittedModel(ForceModel):
         return where(log_g < low, below, above)
 
     def arc_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(_ARC, g, alpha)
+        return self.slopes(self._terms[0], g, alpha)
 
     def normal_load_slopes(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        return self.slopes(_LOAD, g, alpha)
+        return self.slopes(self._terms[1], g, alpha)
 
     def slopes(self, name: str, g: Any, alpha: Any) -> tuple[Any, Any]:
-        """Return the derivatives of A or B by g and alpha; infinite in g where g is 0."""
+        """Return the derivatives of a function by g and alpha; infinite in g where g is 0."""
         if type(g) is float and type(alpha) is float:
             return self._slopes(name, g, alpha)
         in_g, in_alpha = in_blocks(lambda *at: self._slopes(name, *at), 2, g, alpha)
@@ -221,7 +252,7 @@ class FittedModel(ForceModel):
         log_g, log_alpha = log(g), log(alpha)
         at, row = self.limits.clamped(log_g, log_alpha)
         value, in_g, in_alpha = self.inside_slopes(name, at, row)
-        low, high = self.limits.log_g
+        low, high = self.limits.log_g[0], self.limits.log_highest(row)
         with np.errstate(all="ignore"):
             in_g, in_alpha = in_g / value, in_alpha / value  # of the logarithm from here on
             far = where(log_g < low, log_g, low)
@@ -229,13 +260,15 @@ class FittedModel(ForceModel):
             ratio = log(value) - log(wedge_functions(low, seam)[name])
             below = wedge_slopes(far)[name] + ratio * (p / seam) * wedge_slope(far)
             over = where(log_g > high, log_g - high, 0.0)
-            growth = log_touch(self.limits.growth, row) if name == _LOAD else 0.0
-            bend = log_touch_slope(self.limits.growth, row) if name == _LOAD else 0.0
+            powers = self.limits.growth.get(name, (0.0,))
+            growth, bend = log_touch(powers, row), log_touch_slope(powers, row)
+            # the nearest point inside moves with alpha along the upper end
+            bend = bend * over + self.limits.log_highest_slope(row) * (in_g - growth)
             in_g = where(log_g < low, below, where(log_g > high, growth, in_g))
             in_alpha = where(
                 log_g < low,
                 in_alpha * (p / seam),
-                where(log_g > high, in_alpha + bend * over, in_alpha),
+                where(log_g > high, in_alpha + bend, in_alpha),
             )
             there = self._contact((name,), g, alpha)[0]
             first, last = self.limits.log_alpha
@@ -254,18 +287,18 @@ class FittedModel(ForceModel):
         return friction, worn
 
     def _friction(self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, alpha: Any) -> Any:
-        """Return 2 R_w xi mu B, which where g is high is 2 xi Gamma_o B/g."""
-        high = self.limits.g[1]
+        """Return 2 R_w xi mu B, which where g is high is 2 xi Gamma_o B/g; B* under "slip"."""
+        high = self.limits.highest_g(alpha)
         beyond = g > high
         load = self.normal_load(where(beyond, high, g), alpha)
         friction = 2.0 * product(radius, xi, mu) * load
         if not _any(beyond):
             return friction
         log_alpha = self.limits.clamped(0.0, log(alpha))[1]
-        excess = log_touch(self.limits.growth, log_alpha) - 1.0
+        excess = log_touch(self.limits.growth[self._terms[1]], log_alpha) - 1.0
         log_g = log(gamma) - (log(mu) + log(radius))  # which cannot overflow as g would
         with np.errstate(all="ignore"):
-            power = exp(excess * (log_g - self.limits.log_g[1]))
+            power = exp(excess * (log_g - self.limits.log_highest(log_alpha)))
             return where(beyond, 2.0 * product(xi, gamma, power * (load / high)), friction)
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The model "power-law": a formula of twelve constants for A and B, and one of four for delta.
+"""The model "power-law": formulas of six constants each for A, B, A* and B*, of four for delta.
 
 With y = 1 - 2/alpha, which is 0 for a neo-Hookean solid, and A_w, B_w and delta_w of the far-field
 wedge (`surrogate.contact.wedge`),
@@ -8,6 +8,8 @@ wedge (`surrogate.contact.wedge`),
 
     B = B_w(g_B) + b g^n,   g_B = g/(1 + g/e^b_1),
     ln b = b_2 + b_3 y + b_4 y^2,   n = b_5 + b_6 y,
+
+    A* and B* as B, with A_w in the place of B_w for A*,
 
     delta/R_w = 1 + delta_w [1 - (g/g_touch)^c]^q   short of the touch,
     c = c_1 + c_2 y,   q = c_3 + c_4 y.
@@ -29,7 +31,7 @@ from numpy.typing import NDArray
 
 from surrogate.basics.elementwise import exp, log, where
 from surrogate.contact.domain import Domain
-from surrogate.contact.fitted import FittedModel
+from surrogate.contact.fitted import PROJECTED, FittedModel
 from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
 
 __all__ = ["BlendModel", "arc_formula", "distance_formula", "load_formula"]
@@ -46,13 +48,20 @@ class BlendModel(FittedModel):
     limits : Domain
         Its domain.
     constants : mapping of str to tuple of float
-        a_1 to a_6 as "arc", b_1 to b_6 as "normal_load", c_1 to c_4 as "distance".
+        a_1 to a_6 as "arc", b_1 to b_6 as "normal_load", c_1 to c_4 as "distance", and as many
+        as b as "slip_arc" and "slip_load".
     """
 
     limits: Domain
     constants: Mapping[str, tuple[float, ...]]
     name: str = "power-law"
     equation: str = "asymptotes joined"
+    law: str = PROJECTED
+
+    @property
+    def functions(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Names of the functions that `contact` takes."""
+        return tuple(self.constants)
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         return [self.inside_slopes(name, log_g, log_alpha)[0] for name in names]
@@ -62,8 +71,8 @@ class BlendModel(FittedModel):
         constants = self.constants[name]
         if name == "arc":
             value, in_g, in_y = arc_formula(constants, log_g, y)
-        elif name == "normal_load":
-            value, in_g, in_y = load_formula(constants, log_g, y)
+        elif name != "distance":
+            value, in_g, in_y = load_formula(constants, log_g, y, name)
         else:
             touch, bend = self.limits.log_touch_slopes(log_alpha)
             value, in_g, in_y, in_touch = distance_formula(constants, log_g, y, touch)
@@ -91,15 +100,17 @@ def arc_formula(a: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
     )
 
 
-def load_formula(b: Constants, log_g: Any, y: Any) -> tuple[Any, Any, Any]:
-    """Return B and its derivatives by ln g and y."""
+def load_formula(
+    b: Constants, log_g: Any, y: Any, name: str = "normal_load"
+) -> tuple[Any, Any, Any]:
+    """Return B, A* or B*, as named, and its derivatives by ln g and y."""
     at, left = _saturated(log_g, b[0], 1.0)
-    far = _wedge("normal_load", at)
+    far = _wedge(name, at)
     n = b[4] + b[5] * y
     power = exp(b[1] + y * (b[2] + y * b[3]) + n * log_g)
     return (
         far + power,
-        far * wedge_slopes(at)["normal_load"] * left + n * power,
+        far * wedge_slopes(at)[name] * left + n * power,
         power * (b[2] + 2.0 * b[3] * y + b[5] * log_g),
     )
 

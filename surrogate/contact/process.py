@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from surrogate.basics.elementwise import log
 from surrogate.contact.coordinates import POWER, coordinates, vertex
 from surrogate.contact.domain import Domain
-from surrogate.contact.fitted import FittedModel, in_blocks
+from surrogate.contact.fitted import PROJECTED, FittedModel, in_blocks
 from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
 
 __all__ = ["GaussianProcess", "ProcessModel"]
@@ -183,6 +183,12 @@ class ProcessModel(FittedModel):
     name: str = "gp"
     uncertain: bool = True
     equation: str = "Gaussian processes"
+    law: str = PROJECTED
+
+    @property
+    def functions(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Names of the functions that `contact` takes."""
+        return tuple(self.processes)
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         at, scales = self._at(log_g, log_alpha)

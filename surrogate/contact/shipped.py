@@ -1,23 +1,21 @@
-"""The fitted models of one file, and the shipped ones among them."""
+"""The fitted models of one file, and those that are in use: the shipped ones, or one's own."""
 
 from __future__ import annotations
 
-import hashlib
-import io
-import json
-import zipfile
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from surrogate.basics.files import file_name, models_folder, read_archive
+from surrogate.basics.files import file_name, models_folder
+from surrogate.contact.archive import FILE, SCHEMA, content_of, read_fitted
 from surrogate.contact.bounds import Bounds
-from surrogate.contact.coordinates import QUANTITIES, coordinates
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import FittedModel
 from surrogate.contact.formula import BlendModel
@@ -29,120 +27,20 @@ from surrogate.errors import InputError
 __all__ = [
     "FILE",
     "SCHEMA",
+    "VARIABLE",
     "Fitted",
     "content_of",
     "fitted_from",
+    "in_use",
     "read",
     "read_fitted",
     "shipped",
     "to_file",
+    "use",
 ]
 
-FILE = "surrogates.npz"
-_FAMILY, _VERSION = "wirecut-surrogates-", 1
-SCHEMA = f"{_FAMILY}{_VERSION}"
-_ABOUT = "about"
-_REMEDY = "install wirecut again, or make the file anew with regen-surrogate"
-
-
-def content_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> bytes:
-    """Return the content of a file: what is said about the arrays, and the arrays.
-
-    Equal numbers give equal bytes.
-
-    Examples
-    --------
-    >>> len(content_of({}, {"x": np.zeros(2)})) > 100
-    True
-    """
-    text = json.dumps({"schema": SCHEMA, **about}, sort_keys=True, allow_nan=False)
-    columns = {_ABOUT: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, values in columns.items():
-            member = io.BytesIO()
-            np.lib.format.write_array(member, np.asarray(values), allow_pickle=False)
-            entry = zipfile.ZipInfo(f"{name}.npy")  # of a fixed date
-            archive.writestr(entry, member.getvalue(), zipfile.ZIP_DEFLATED)
-    return buffer.getvalue()
-
-
-def read_fitted(path: object) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Return what a file says about its arrays, and the arrays.
-
-    Parameters
-    ----------
-    path : str or path-like
-        The file, with its checksum beside it.
-
-    Returns
-    -------
-    about : dict
-        Schema, domain, units, errors, provenance.
-    arrays : dict of str to ndarray
-        The arrays, all of them finite.
-
-    Raises
-    ------
-    InputError
-        If a file is missing, damaged, of a newer schema, or holds what is no number.
-    """
-    file = Path(file_name(path))
-    content = _verified(file)
-    about, arrays = _decoded(file, content)
-    for name, values in arrays.items():
-        if values.dtype.kind not in "fiu" or not np.all(np.isfinite(values)):
-            raise InputError(
-                f"{file} must hold finite numbers only, but {name} has others; {_REMEDY}."
-            )
-        values.flags.writeable = False
-    return about, arrays
-
-
-def _verified(file: Path) -> bytes:
-    try:
-        content = file.read_bytes()
-        expected = file.with_name(file.name + ".sha256").read_bytes().split()[:1]
-    except OSError as error:
-        raise InputError(
-            f"the fitted models must be read, but {error.filename} cannot be "
-            f"({error.strerror}); {_REMEDY}."
-        ) from None
-    if [hashlib.sha256(content).hexdigest().encode()] != expected:
-        raise InputError(
-            f"{file} must match the checksum beside it, but it does not: it is damaged or "
-            f"incomplete; {_REMEDY}."
-        )
-    return content
-
-
-def _decoded(file: Path, content: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    try:
-        arrays = read_archive(content)
-        about = json.loads(arrays.pop(_ABOUT).tobytes(), parse_constant=_no_number)
-        schema = str(about["schema"])
-    except (KeyError, ValueError, TypeError, RecursionError) as error:
-        raise InputError(
-            f"{file} must be a file of fitted models, but it cannot be decoded ({error}); "
-            f"{_REMEDY}."
-        ) from None
-    _require_schema(file, schema)
-    return about, arrays
-
-
-def _no_number(name: str) -> float:
-    raise ValueError(f"{name} is no number")
-
-
-def _require_schema(file: Path, schema: str) -> None:
-    if schema == SCHEMA:
-        return
-    version = schema.removeprefix(_FAMILY)
-    newer = schema.startswith(_FAMILY) and version.isdigit() and int(version) > _VERSION
-    raise InputError(
-        f"{file} must have the schema {SCHEMA!r}, but it has {schema!r}; "
-        f"{'upgrade wirecut' if newer else _REMEDY}."
-    )
+VARIABLE = "WIRECUT_MODELS"
+"""The environment variable that names a file of models, or its folder, to be used."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +52,7 @@ class Fitted:
     limits : Domain
         The domain of all models.
     processes : mapping of str to GaussianProcess
-        Of the quantities of `surrogate.contact.coordinates`.
+        Of the quantities of `surrogate.contact.coordinates`; those of slip may be missing.
     table : CellTable
         Of A, B and (delta/R_w - 1)/|x|^(7/4).
     constants : mapping of str to tuple of float
@@ -194,11 +92,12 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
     about: dict[str, Any] = {
         **fitted.about,
         "units": "R_w = 1, mu = 1, forces and energies per unit thickness",
-        "domain": {"g": limits.g, "alpha": limits.alpha},
+        "domain": {"g": limits.g, "alpha": limits.alpha, "highest": limits.highest},
         "touch": limits.touch,
         "touch_error": fitted.touch_error,
-        "growth": limits.growth,
+        "growth": dict(limits.growth),
         "constants": {name: list(values) for name, values in fitted.constants.items()},
+        "answers": _answers(fitted),
         "grid": {name: getattr(grid, name) for name in ("beyond", "short", "past", "stiffening")},
         "prior": {
             name: {
@@ -211,8 +110,7 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
         },
     }
     arrays: dict[str, Any] = {}
-    for name in QUANTITIES:
-        process = fitted.processes[name]
+    for name, process in fitted.processes.items():
         arrays[f"{name}.points"] = process.inputs[:, :2]
         arrays[f"{name}.values"] = process.values
         arrays[f"{name}.noise"] = process.noise.astype(np.float32)
@@ -236,19 +134,25 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
             _pair(ends["g"]),
             _pair(ends["alpha"]),
             _floats(about["touch"]),
-            _floats(about["growth"]),
+            {name: _floats(powers) for name, powers in _growth(about["growth"]).items()},
+            tuple(_pair(each) for each in ends.get("highest", ())),
         )
+        names = tuple(n for n in (*QUANTITIES, *SLIP_QUANTITIES) if n in about["prior"])
+        if not {*QUANTITIES} <= {*names}:
+            raise ValueError(f"processes of {', '.join(names)}")
         grid = Grid(
             limits.log_g[0], log_alpha=limits.log_alpha, touch=limits.touch, **about["grid"]
         )
-        return Fitted(
+        fitted = Fitted(
             limits,
-            {name: _process(name, limits, about["prior"][name], arrays) for name in QUANTITIES},
-            CellTable(grid, {name: _nodes(name, grid, arrays) for name in QUANTITIES}),
+            {name: _process(name, limits, about["prior"][name], arrays) for name in names},
+            CellTable(grid, {name: _nodes(name, grid, arrays) for name in names}),
             {name: _floats(values) for name, values in about["constants"].items()},
             float(about["touch_error"]),
             about,
         )
+        _require_answers(fitted)
+        return fitted
     except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
         raise InputError(
             f"the fitted models must be complete, but {error!r} was met; install wirecut again, "
@@ -256,10 +160,48 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
         ) from None
 
 
+#: Where the answers of a file are compared: shares of the domain in ln g and in ln alpha.
+_ASKED = ((0.02, 0.05), (0.3, 0.5), (0.55, 0.0), (0.75, 0.95), (0.6, 0.3))
+_ASKED_MODELS = ("power-law", "table")  # the process is not solved before it is needed
+
+
+def _answers(fitted: Fitted) -> dict[str, list[list[float]]]:
+    """Return the functions of the quicker models at a few points."""
+    (low, high), (first, last) = fitted.limits.log_g, fitted.limits.log_alpha
+    points = [
+        (float(np.exp(low + g * (high - low))), float(np.exp(first + a * (last - first))))
+        for g, a in _ASKED
+    ]
+    names = tuple(fitted.processes)
+    return {
+        model: [list(map(float, fitted.models[model].contact(names, *at))) for at in points]
+        for model in _ASKED_MODELS
+    }
+
+
+def _require_answers(fitted: Fitted) -> None:
+    if fitted.about.get("schema") != SCHEMA:
+        return
+    told = fitted.about["answers"]
+    for model, answers in _answers(fitted).items():
+        if not np.allclose(answers, told[model], rtol=1e-9, atol=0.0):
+            raise ValueError(f"other answers of {model!r} than those that the file names")
+
+
+def _growth(told: Any) -> Mapping[str, Any]:
+    """Return the growth by function; the first version of the file has that of B alone."""
+    return told if isinstance(told, Mapping) else {"normal_load": told}
+
+
 def _process(
     name: str, limits: Domain, prior: Mapping[str, Any], arrays: Mapping[str, Any]
 ) -> GaussianProcess:
     points = arrays[f"{name}.points"]
+    known = len(points), len(arrays[f"{name}.values"]), len(arrays[f"{name}.noise"])
+    if len(set(known)) != 1 or np.max(arrays[f"{name}.active"], initial=0) >= known[0]:
+        raise ValueError(f"the process of {name} has arrays of {known} points")
+    if not (np.all(arrays[f"{name}.noise"] > 0.0) and np.all(np.array(prior["lengths"]) > 0.0)):
+        raise ValueError(f"the process of {name} has a noise or a length that is not positive")
     return GaussianProcess(
         inputs=coordinates(points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
         values=arrays[f"{name}.values"],
@@ -302,14 +244,62 @@ def read(path: str) -> Fitted:
 
 
 def shipped() -> Fitted:
-    """Return the fitted models that this installation ships.
+    """Return the fitted models in use: those of `use` or of the environment, or the shipped ones.
 
     Raises
     ------
     InputError
-        If it ships none, or their file is damaged.
+        If there are none, or their file is damaged.
     """
-    return _in(models_folder())
+    named = _in_use or os.environ.get(VARIABLE)
+    return read(str(_file_at(named))) if named else _in(models_folder())
+
+
+_in_use: str | None = None
+
+
+def use(path: object = None) -> Fitted:
+    """Take the fitted models of a file from now on, everywhere; without a path the shipped ones.
+
+    Parameters
+    ----------
+    path : str or path-like, optional
+        The file, or the folder that holds it.
+
+    Returns
+    -------
+    Fitted
+        What is in use now.
+
+    Raises
+    ------
+    InputError
+        If they cannot be read; those in use before stay.
+    """
+    global _in_use
+    if path is None:
+        _in_use = None
+        return shipped()
+    file = os.path.abspath(_file_at(file_name(path)))
+    fitted = read(file)
+    _in_use = file
+    return fitted
+
+
+@contextmanager
+def in_use(path: object) -> Iterator[Fitted]:
+    """Take the fitted models of a file for a while."""
+    global _in_use
+    before = _in_use
+    try:
+        yield use(path)
+    finally:
+        _in_use = before
+
+
+def _file_at(path: str) -> Path:
+    """Return the file of models at a path, which may be its folder."""
+    return Path(path) / FILE if os.path.isdir(path) else Path(path)
 
 
 @cache

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from surrogate.basics.elementwise import where
 from surrogate.contact.coordinates import POWER, vertex
 from surrogate.contact.domain import Domain
-from surrogate.contact.fitted import FittedModel
+from surrogate.contact.fitted import PROJECTED, FittedModel
 from surrogate.contact.grid import Grid, Place
 
 __all__ = ["CellTable", "TableModel"]
@@ -245,6 +245,12 @@ class TableModel(FittedModel):
     table: CellTable = field(repr=False)
     name: str = "table"
     equation: str = "bicubic cells of the gp's mean"
+    law: str = PROJECTED
+
+    @property
+    def functions(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Names of the functions that `contact` takes."""
+        return tuple(self.table.nodes)
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         x, values = self.table.at(names, log_g, log_alpha)

@@ -63,35 +63,44 @@ def wedge_slope(log_g: Any) -> Any:
 
 
 def wedge_functions(log_g: Any, p: Any) -> dict[str, Any]:
-    """Return A, B and delta/R_w from ln g and p; delta is infinite where g is 0.
+    """Return A, B and delta/R_w from ln g and p, and A* = A and B* = B; delta is infinite at g = 0.
 
     Examples
     --------
     >>> at = wedge_functions(math.log(1e-3), wedge_load(math.log(1e-3)))
     >>> print(*(f"{name} {value:.4f}" for name, value in at.items()))
-    arc 1.0075 normal_load 0.7972 distance 101.1443
+    arc 1.0075 normal_load 0.7972 distance 101.1443 slip_arc 1.0075 slip_load 0.7972
     """
     root = np.sqrt(p / math.pi)
+    arc, load = 4.0 * (root if isinstance(root, np.ndarray) else float(root)), 4.0 * p
     far = where(log_g == -math.inf, -1e3, log_g)
     with np.errstate(over="ignore"):
         distance = (8.0 / math.pi) * p * p * exp(-far)
     return {
-        "arc": 4.0 * (root if isinstance(root, np.ndarray) else float(root)),
-        "normal_load": 4.0 * p,
+        "arc": arc,
+        "normal_load": load,
         "distance": where(log_g == -math.inf, math.inf, distance),
+        "slip_arc": arc,
+        "slip_load": load,
     }
 
 
 def wedge_slopes(log_g: Any) -> dict[str, Any]:
-    """Return d ln/d ln g of A, B and delta.
+    """Return d ln/d ln g of A, B, delta, A* and B*.
 
     Examples
     --------
     >>> print(*(f"{name} {value:.4f}" for name, value in wedge_slopes(math.log(1e-3)).items()))
-    arc 0.0533 normal_load 0.1066 distance -0.7868
+    arc 0.0533 normal_load 0.1066 distance -0.7868 slip_arc 0.0533 slip_load 0.1066
     """
     slope = wedge_slope(log_g)
-    return {"arc": 0.5 * slope, "normal_load": slope, "distance": 2.0 * slope - 1.0}
+    return {
+        "arc": 0.5 * slope,
+        "normal_load": slope,
+        "distance": 2.0 * slope - 1.0,
+        "slip_arc": 0.5 * slope,
+        "slip_load": slope,
+    }
 
 
 def _lambert(log_g: Any) -> Any:

@@ -20,13 +20,24 @@ from surrogate.basics.elementwise import apply
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
-from surrogate.contact.coordinates import QUANTITIES
+from surrogate.contact.domain import require_below_highest
 from surrogate.errors import DomainError
 
 __all__ = ["ContactFunctions", "contact_functions", "energy_release_rate"]
 
 DEFAULT_RTOL = 0.02
-_FLOATS = ("arc", "normal_load", "delta", "arc_std", "normal_load_std", "delta_std")
+_FLOATS = (
+    "arc",
+    "normal_load",
+    "delta",
+    "slip_arc",
+    "slip_load",
+    "arc_std",
+    "normal_load_std",
+    "delta_std",
+    "slip_arc_std",
+    "slip_load_std",
+)
 
 DISTANCE = Quantity(
     "delta",
@@ -59,6 +70,14 @@ class ContactFunctions(Record):
         Name of the model; "auto" where the points have several.
     chosen : str or ndarray of str
         Name of the model of each point.
+    slip_arc, slip_load : float, ndarray or None
+        A* = int lambda dtheta and B* = int P lambda dtheta [-], with the stretch lambda of the face
+        under the contact: the arc along which it slips, and the load times the slip. To first order
+        in tau_w and xi the energy balance has them in the place of A and B. Where the tip touches
+        the wire they depend on the size of the tip, which is that of the finite elements' notch,
+        5e-4 R_w. None where the model has none, as the closed forms.
+    slip_arc_std, slip_load_std : float, ndarray or None
+        Standard deviations of the two [-], like the others.
 
     References
     ----------
@@ -80,6 +99,10 @@ class ContactFunctions(Record):
     in_domain: bool | NDArray[np.bool_]
     model: str
     chosen: str | NDArray[np.str_]
+    slip_arc: FloatOrArray | None = None
+    slip_load: FloatOrArray | None = None
+    slip_arc_std: FloatOrArray | None = None
+    slip_load_std: FloatOrArray | None = None
 
 
 def contact_functions(
@@ -101,7 +124,7 @@ def contact_functions(
         Name of a model, see `models`; "auto" for the cheapest one that meets `rtol`.
     rtol : float, optional
         Largest relative error of A, B and delta that will do [-]; None for any, which with "auto"
-        is 0.02.
+        is 0.02. A* and B* do not count.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
         the nearest alpha.
@@ -109,7 +132,7 @@ def contact_functions(
     Returns
     -------
     ContactFunctions
-        A, B and delta/R_w [-].
+        A, B and delta/R_w, and the slip arc A* and the slip load B* [-].
 
     Raises
     ------
@@ -179,21 +202,30 @@ def _points(chosen: ForceModel, g: object, alpha: object, extrapolate: bool) -> 
     in_g, in_alpha = chosen.accepted(extrapolate)
     values = in_g.checked(g), replace(in_alpha, name="alpha").checked(alpha)
     broadcast_shape(("g", "alpha"), values)
+    if not extrapolate:
+        require_below_highest(chosen, *values)
     return values
 
 
 def _evaluated(chosen: ForceModel, values: tuple[Any, Any]) -> ContactFunctions:
-    def functions(g: Any, alpha: Any) -> tuple[Any, ...]:
-        return *chosen.contact(QUANTITIES, g, alpha), chosen.holds(g, alpha)
+    names = chosen.functions
 
-    arc, load, delta, inside = apply(functions, values, (float, float, float, bool))
-    stds: Any = (None, None, None)
-    if chosen.uncertain:
-        stds = apply(lambda *at: tuple(chosen.stds(QUANTITIES, *at)), values, (float, float, float))
-    arc_std, load_std, delta_std = stds
-    return ContactFunctions(
-        arc, load, delta, arc_std, load_std, delta_std, inside, chosen.name, chosen.name
-    )
+    def functions(g: Any, alpha: Any) -> tuple[Any, ...]:
+        return *chosen.contact(names, g, alpha), chosen.holds(g, alpha)
+
+    def stds_of(g: Any, alpha: Any) -> tuple[Any, ...]:
+        return tuple(chosen.stds(names, g, alpha))
+
+    kinds = (float,) * len(names)
+    *found, inside = apply(functions, values, (*kinds, bool))
+    stds = apply(stds_of, values, kinds) if chosen.uncertain else (None,) * len(names)
+    columns = dict(zip(map(_column, names), found, strict=True))
+    columns.update((f"{_column(name)}_std", std) for name, std in zip(names, stds, strict=True))
+    return ContactFunctions(**columns, in_domain=inside, model=chosen.name, chosen=chosen.name)
+
+
+def _column(name: str) -> str:
+    return "delta" if name == "distance" else name
 
 
 def energy_release_rate(

@@ -23,9 +23,10 @@ from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, FITTED_NAMES, force_model, is_auto
 from surrogate.contact.domain import require_inside
 from surrogate.equations import RELATIVE_WEAR_STRENGTH
+from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
-__all__ = ["CuttingForce", "cutting_force", "dissipative_force"]
+__all__ = ["CuttingForce", "cutting_force", "dissipative_force", "force_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,6 +115,11 @@ def cutting_force(
     AccuracyError
         If the model is "auto" and none is as exact as `rtol`; the message names the best one.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If a quantity is hardly that of a soft solid's cut, such as a radius of 0.2 m.
+
     Notes
     -----
     Range of validity: >> is taken to mean a factor of 10 (`MUCH_GREATER`). Outside its range a
@@ -145,6 +151,21 @@ def cutting_force(
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
+    force = force_of(scene, model, rtol, extrapolate)
+    warn_of_scene(scene.values())
+    return force
+
+
+def force_of(
+    scene: Scene, model: str = AUTO, rtol: float = 0.02, extrapolate: bool = False
+) -> CuttingForce:
+    """Return the force as `cutting_force` does, of scenes that nobody gave as they are.
+
+    Examples
+    --------
+    >>> force_of(Scene(1.0, 1.0, 1.0), "eq13").total
+    1.0
+    """
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     if is_auto(model):
         require_scene(scene)
@@ -166,7 +187,7 @@ def cutting_force(
     total, cleavage, friction, wear, holds = apply(
         parts, scene.values(), (float, float, float, float, bool)
     )
-    return CuttingForce(total, cleavage, friction, wear, model, None, holds, model)
+    return CuttingForce(total, cleavage, friction, wear, chosen.name, None, holds, chosen.name)
 
 
 def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:

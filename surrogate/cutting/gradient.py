@@ -12,6 +12,7 @@ from surrogate.basics.records import Record
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO, FITTED_NAMES
 from surrogate.contact.domain import require_inside
+from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import NAMES, Scene, require_scene
 
 __all__ = ["ForceGradient", "force_gradient"]
@@ -111,6 +112,11 @@ def force_gradient(
         model and `extrapolate` is not set; or if a derivative has no limit, which is so only where
         Gamma_o = 0 or mu R_w = 0 and the model is not a closed form.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If a quantity is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of the model. Where A or B bends, the derivative is that from above.
@@ -147,4 +153,5 @@ def force_gradient(
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"
     for name, slope in zip(NAMES, slopes, strict=True):
         defined(f"derivative by {name}", slope, remedy)
+    warn_of_scene(scene.values())
     return ForceGradient(**dict(zip(NAMES, slopes, strict=True)), model=chosen.name)

@@ -19,7 +19,8 @@ from surrogate.basics.checks import (
 from surrogate.basics.elementwise import apply, product, ratio
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.cutting.force import CuttingForce, cutting_force
+from surrogate.cutting.force import CuttingForce, force_of
+from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = [
@@ -134,6 +135,11 @@ def classify(
     AccuracyError
         If the model is "auto" and none is as exact as `rtol`.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If a quantity is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of the model. The two answers do not depend on each other: the paper's
@@ -158,8 +164,10 @@ def classify(
     share = one_number(THRESHOLD, threshold)
     rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
     split = isinstance(model, str) and model == SPLIT_MODEL
-    force = None if split else cutting_force(scene, model, rtol, extrapolate)
-    return regime_of(scene, force, share, model)
+    force = None if split else force_of(scene, model, rtol, extrapolate)
+    regime = regime_of(scene, force, share, model)
+    warn_of_scene(scene.values())
+    return regime
 
 
 def regime_of(scene: Scene, force: CuttingForce | None, share: float, model: str) -> Regime:
@@ -168,7 +176,7 @@ def regime_of(scene: Scene, force: CuttingForce | None, share: float, model: str
     Examples
     --------
     >>> scene = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
-    >>> regime_of(scene, cutting_force(scene, "table"), 0.6, "table").dominant
+    >>> regime_of(scene, force_of(scene, "table"), 0.6, "table").dominant
     'wear'
     """
     split = model == SPLIT_MODEL
@@ -196,7 +204,7 @@ def term_shares(scene: Scene, force: CuttingForce, model: str) -> dict[str, Floa
     Examples
     --------
     >>> scene = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
-    >>> shares = term_shares(scene, cutting_force(scene, "eq13"), "eq13")
+    >>> shares = term_shares(scene, force_of(scene, "eq13"), "eq13")
     >>> {name: round(share, 4) for name, share in shares.items()}
     {'toughness-and-friction': 0.1837, 'wear': 0.8091, 'friction-stiffness': 0.0072}
     """

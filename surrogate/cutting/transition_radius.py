@@ -308,7 +308,8 @@ def _radii(
 
 def _zeros(chosen: ForceModel, relative: Array, xi: Array, alpha: float) -> Array:
     """Return the largest g of a zero; 0 where the toughness dominates at every g."""
-    low, high = max(chosen.g.lower, SMALLEST_G), min(chosen.g.upper, LARGEST_G)
+    ends = chosen.ends(alpha)
+    low, high = max(ends[0], SMALLEST_G), min(ends[1], LARGEST_G)
     count = 2 + int(np.ceil(POINTS_A_DECADE * np.log10(high / low)))
     grid = np.geomspace(low, high, count)
     grid[0], grid[-1] = low, high
@@ -317,7 +318,7 @@ def _zeros(chosen: ForceModel, relative: Array, xi: Array, alpha: float) -> Arra
     )
     last = count - 1 - np.argmax(dominated[:, ::-1], axis=1)
     found = np.asarray(np.any(dominated, axis=1))
-    _check_ends(chosen, found, found & (last == count - 1))
+    _check_ends(chosen, ends, found, found & (last == count - 1))
     zeros = np.where(found, high, 0.0)
     inner = np.flatnonzero(found & (last < count - 1))
     if inner.size:
@@ -343,12 +344,17 @@ def _difference(chosen: ForceModel, g: Array, relative: Array, xi: Array, alpha:
     return np.asarray(np.broadcast_to(total, np.broadcast_shapes(g.shape, relative.shape)))
 
 
-def _check_ends(chosen: ForceModel, found: NDArray[np.bool_], at_top: NDArray[np.bool_]) -> None:
+def _check_ends(
+    chosen: ForceModel,
+    ends: tuple[float, float],
+    found: NDArray[np.bool_],
+    at_top: NDArray[np.bool_],
+) -> None:
     """Refuse to say what is beyond the range of a model that has one."""
-    below = chosen.g.lower > 0.0 and not found.all()
-    above = chosen.g.upper < LARGEST and at_top.any()
+    below = ends[0] > 0.0 and not found.all()
+    above = ends[1] < LARGEST and at_top.any()
     if below or above:
-        end, side = (chosen.g.lower, "below") if below else (chosen.g.upper, "above")
+        end, side = (ends[0], "below") if below else (ends[1], "above")
         raise DomainError(
             f"the transition radius must be within what model {chosen.name!r} covers, but it would "
             f"be at a g {side} {end:.4g}, where the model ends; choose 'eq13' for an estimate."

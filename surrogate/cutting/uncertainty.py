@@ -22,7 +22,7 @@ from surrogate.basics.records import Shown
 from surrogate.choosing.accuracy import contact_std, one_model
 from surrogate.choosing.by_name import AUTO
 from surrogate.contact.base import ForceModel
-from surrogate.cutting.force import cutting_force
+from surrogate.cutting.force import force_of
 from surrogate.cutting.gradient import force_gradient
 from surrogate.errors import InputError
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
@@ -128,6 +128,11 @@ def propagate(
     DomainError, AccuracyError
         As `force_gradient`.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If a quantity is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of the model, and standard errors over which the force is close to a
@@ -166,7 +171,7 @@ def propagate(
     signed = {name: _times(getattr(gradient, name), error) for name, error in errors.items()}
     model_std = _model_std(chosen, scene)
     return UncertainForce(
-        cutting_force(scene, chosen.name, extrapolate=extrapolate).total,
+        force_of(scene, chosen.name, extrapolate=extrapolate).total,
         _combined(list(signed.values()), rho, model_std, scene.shape),
         {name: _number(np.abs(each)) for name, each in signed.items()},
         None if model_std is None else _number(model_std),

@@ -177,10 +177,10 @@ def _limits(fit: Estimate) -> Iterator[str]:
 
 
 def _end_in_words(fit: Estimate, what: str) -> str:
-    covered = force_model(fit.model).g
+    low, high = force_model(fit.model).ends(fit.stiffening_exponent)
     return {
         "model": f"end of what model '{fit.model}' covers for all wires (g from "
-        f"{covered.lower:.4g} to {covered.upper:.4g})",
+        f"{low:.4g} to {high:.4g})",
         "bound": "given bound",
         "search": "end of the search",
     }.get(what, "end of the search")
@@ -197,7 +197,7 @@ def _out_of_range(fit: Estimate) -> Iterator[str]:
     model = force_model(fit.model)
     if not isinstance(model, FittedModel) or fit.known.wear_strength == 0.0:
         return
-    low, high = model.limits.g
+    low, high = model.ends(fit.stiffening_exponent)
     g = fit.dimensionless_toughness
     outside = (g < low) | (g > high)
     if not np.any(outside):

@@ -265,8 +265,9 @@ class Estimate:
         stress += self.wear_strength
         if not self.is_physical or stress == 0.0:
             return np.nan
-        gradient = (factor / stress) * np.array([1.0, -self.toughness / stress])
-        return float(np.sqrt(gradient @ self.covariance @ gradient))
+        with np.errstate(over="ignore", invalid="ignore"):  # of a subnormal stress it is nan
+            gradient = (factor / stress) * np.array([1.0, -self.toughness / stress])
+            return float(np.sqrt(gradient @ self.covariance @ gradient))
 
     def scene(self, wire_radius: ArrayLike) -> Scene:
         """Return the scene of the identified material and a wire of any radius [m].

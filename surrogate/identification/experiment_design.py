@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import Quantity, one_number, shown
 from surrogate.basics.records import Shown
-from surrogate.cutting.force import cutting_force
+from surrogate.cutting.force import force_of
 from surrogate.errors import InputError
 from surrogate.inference.inputs import FORCE_STD, WIRE_RADIUS, column
 from surrogate.inference.line_fit import linear_form, solve_least_squares
@@ -54,7 +54,7 @@ class Noise:
         assert self.expected is not None
         assert self.relative_force_std is not None
         scene = replace(self.expected, wire_radius=wire_radius)
-        force = cutting_force(scene, "eq13").total  # the line that is designed for
+        force = force_of(scene, "eq13").total  # the line that is designed for
         return np.asarray(FORCE_STD.checked(self.relative_force_std * np.asarray(force)))
 
 

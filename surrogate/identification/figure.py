@@ -20,6 +20,7 @@ from surrogate.basics.figures import (
     RED,
     SINGLE_COLUMN,
     SMALL,
+    in_style,
     legend_above,
     new_axes,
     new_figure,
@@ -226,6 +227,7 @@ def plot_identification(
     return ax
 
 
+@in_style
 def save_identification(
     identification: Identification,
     file: str | PathLike[str],

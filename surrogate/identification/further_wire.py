@@ -172,9 +172,10 @@ def further_wire(
     # every toughness that is admitted, not only those compared, stays within the model's range
     ends = profile.admitted[0, [0, -1]] if profile.admitted.size else gamma[[0, -1]]
     g = ends[:, np.newaxis] / (cuts.shear_modulus * radius)
-    inside = np.all((g >= model.g.lower) & (g <= model.g.upper), axis=0)
+    low, high = model.ends(cuts.stiffening_exponent)
+    inside = np.all((g >= low) & (g <= high), axis=0)
     if not np.any(inside):  # as where nothing bounds the toughness below
-        inside = g[-1] <= model.g.upper
+        inside = g[-1] <= high
     radius = radius[inside]
     if not radius.size:
         return None

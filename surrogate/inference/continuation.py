@@ -101,7 +101,7 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
     """
     if not isinstance(model, FittedModel):
         return None
-    low, high = model.limits.g
+    low, high = model.ends(alpha)
     inside = np.minimum(np.maximum(g, low), high)
     near = contact_bounds(model, inside, alpha)
     if near is None:
@@ -131,7 +131,7 @@ def _dropped_slopes(model: FittedModel) -> tuple[tuple[float, float], tuple[floa
 
 def _dropped_slopes_at(model: FittedModel, alpha: float) -> Array:
     """Return d ln/d ln g of A and of B inside less that outside, at the low and the high end."""
-    step, (low, high) = 1e-6, model.limits.g
+    step, (low, high) = 1e-6, model.ends(alpha)
     g = np.array([low / (1.0 + step), low * (1.0 + step), high / (1.0 + step), high * (1.0 + step)])
     return np.array(
         [

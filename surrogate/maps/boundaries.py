@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from surrogate.basics.checks import items
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm, formula_name
-from surrogate.cutting.force import cutting_force
+from surrogate.cutting.force import force_of
 from surrogate.cutting.regimes import (
     CONTACTS,
     SPLIT_MODEL,
@@ -144,7 +144,7 @@ def _limit(record: MapRecord, limit: str, miss: float) -> Boundary:
             lines = tuple(line for piece in pieces for line in piece)  # type: ignore[union-attr]
     exact = lines is not None
     if lines is None:
-        force = cutting_force(record.scene, limit, extrapolate=True).total
+        force = force_of(record.scene, limit, extrapolate=True).total
         with np.errstate(all="ignore"):
             off = np.divide(force, record.force.total) - 1.0
         lines = (*_contours(record, off, -miss), *_contours(record, off, miss))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from surrogate.basics.checks import flag, items, shown
 from surrogate.basics.figures import (
     figure_width,
+    in_style,
     new_axes,
     new_figure,
     picture_file,
@@ -17,6 +18,7 @@ from surrogate.basics.figures import (
 )
 from surrogate.choosing.by_name import force_model
 from surrogate.errors import InputError
+from surrogate.maps.belonging import require_the_same
 from surrogate.maps.boundaries import limit_names
 from surrogate.maps.drawing import (
     FILLS,
@@ -91,7 +93,8 @@ def plot_regime_map(
     ------
     InputError
         If `made` is no map or ends beyond 1e100, the width has no such name, a limit has no line
-        of that name, a point is outside the map, or an argument of another kind than is asked for.
+        of that name, a point is outside the map or not of what it fixes, or an argument of another
+        kind than is asked for.
     UnknownModelError
         If there is no model `error_of`, or a limit is none.
     DomainError
@@ -115,6 +118,8 @@ def plot_regime_map(
     size = (figure_width(width), _HEIGHTS[width])
     wanted = _checked(made, limits, error_of)
     contact = flag("contact", contact)
+    for one in _map_points(points):
+        require_the_same(one, made)
     located = [(one, *places(one, made)) for one in _map_points(points)]
     ax = new_axes(size) if ax is None else require_axes(ax)
     set_up(ax, made)
@@ -137,6 +142,7 @@ def plot_regime_map(
     return ax
 
 
+@in_style
 def save_regime_map(
     made: MapRecord,
     file: str | PathLike[str],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
@@ -12,9 +13,9 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import SMALLEST, Quantity, mapping, one_number, shown
 from surrogate.basics.records import ReadOnly, html_table, number
-from surrogate.cutting.force import cutting_force
+from surrogate.cutting.force import force_of
 from surrogate.cutting.regimes import DOMINANT_SHARE, THRESHOLD, regime_of, term_shares
-from surrogate.errors import InputError
+from surrogate.errors import ImplausibleInputWarning, InputError
 from surrogate.maps.axes import coordinate, map_axis
 from surrogate.maps.boundaries import LIMITS, boundaries, limit_names
 from surrogate.maps.record import MapRecord, scene_of
@@ -181,6 +182,11 @@ def regime_map(
     WirecutError
         If the model has no closed form and contourpy, which comes with matplotlib, is missing.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If what is fixed, or all of an axis, is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of the model, see `in_domain` of the map's force.
@@ -217,7 +223,7 @@ def regime_map(
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = scene_of(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share, wanted = one_number(MISS, miss), limit_names(limits)
-    force = cutting_force(scene, model, rtol, extrapolate=True)
+    force = force_of(scene, model, rtol, extrapolate=True)
     regime = regime_of(scene, force, one_number(THRESHOLD, threshold), model)
     shares = term_shares(scene, force, model)
     plain = RegimeMap(
@@ -234,7 +240,10 @@ def regime_map(
         (),
         ReadOnly(quantities),
     )
-    return replace(plain, boundaries=boundaries(plain, wanted))
+    made = replace(plain, boundaries=boundaries(plain, wanted))
+    for sentence in made.warnings:
+        warnings.warn(f"{sentence}.", ImplausibleInputWarning, stacklevel=2)
+    return made
 
 
 def _number_of_nodes(nodes: object) -> int:
@@ -304,11 +313,12 @@ def _pair(axis: Mapping[str, Any]) -> str:
 def _picture(made: MapRecord) -> str:
     from io import StringIO
 
-    from surrogate.basics.figures import new_figure, write_svg
+    from surrogate.basics.figures import new_figure, style, write_svg
     from surrogate.maps.figure import plot_regime_map
 
-    figure = new_figure((3.4, 3.5))
-    plot_regime_map(made, figure.add_subplot())
     stream = StringIO()
-    write_svg(figure, stream)
+    with style():
+        figure = new_figure((3.4, 3.5))
+        plot_regime_map(made, figure.add_subplot())
+        write_svg(figure, stream)
     return stream.getvalue()[stream.getvalue().index("<svg") :]

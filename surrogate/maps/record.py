@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.elementwise import ratio
-from surrogate.cutting.force import CuttingForce, cutting_force
+from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.cutting.regimes import Regime
 from surrogate.errors import InputError
 from surrogate.maps.axes import MapAxis
 from surrogate.maps.lines import Boundary
 from surrogate.maps.scenes import Monomial
+from surrogate.reading.plausibility import SCENE, doubts_of_scene
 from surrogate.scene import NAMES, Scene, require_scene
 
 __all__ = ["MapRecord", "relative_difference", "scene_of"]
@@ -106,6 +107,18 @@ class MapRecord:
             places.append(value)
         return places[0], places[1]
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What can hardly be meant among what is fixed, or is all along an axis, in words."""
+        known: dict[str, Any] = dict(self.fixed)
+        for axis in (self.x, self.y):
+            if axis.name in NAMES[: len(SCENE)]:
+                quantity = SCENE[NAMES.index(axis.name)]
+                low, high = axis.values[0], axis.values[-1]
+                if low > quantity.high or high < quantity.low:
+                    known[axis.name] = axis.values[[0, -1]]
+        return tuple(doubts_of_scene([known.get(name) for name in NAMES[: len(SCENE)]]))
+
     def difference(self, model: str) -> Array:
         """Return how far another model is from the map's, F/F_map - 1 [-], at each node.
 
@@ -116,7 +129,7 @@ class MapRecord:
         DomainError
             If it has no answer at a node.
         """
-        other = cutting_force(self.scene, model, extrapolate=True)
+        other = force_of(self.scene, model, extrapolate=True)
         return relative_difference(other.total, self.force.total)
 
 

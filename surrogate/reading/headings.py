@@ -9,24 +9,18 @@ from typing import NamedTuple
 
 from surrogate.errors import InputError
 from surrogate.reading.sheet import Row, Sheet
-from surrogate.reading.units import (
-    FORCE,
-    LENGTH,
-    LINE_FORCE,
-    TIME,
-    Dimension,
-    Unit,
-)
+from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, TIME, Dimension, Unit
 
 __all__ = [
     "Heading",
     "Vocabulary",
+    "bare",
     "headings",
     "is_units_row",
     "meaning",
     "plain",
+    "split_bracketed",
     "split_unit",
-    "thickness_before",
     "vocabulary",
 ]
 
@@ -34,6 +28,12 @@ Vocabulary = Mapping[str, Sequence[tuple[str, Dimension]]]
 """What a name may mean, and the dimension that its unit must then have; the likeliest first."""
 
 _BRACKETED = re.compile(r"(.*?)[\s_]*[\[({<]\s*([^\[\](){}<>]*?)\s*[\])}>]", re.DOTALL)
+_INSIDE = re.compile(r"(.*?)[\s_]*[\[(]\s*([^\[\]()]*?)\s*[\])]\s*(\w[\w .]*)")
+_AVERAGE = re.compile(
+    r"^(mean|average|avg|mittelwert|mittlere|mittlerer|moyenne|media|srednia)( of| der| de la)? "
+    r"|[ (]+(mean|average|avg|mittelwert|moyenne|media|srednia)\)?$"
+)
+"""Words beside a name that change nothing of what it means."""
 _ANY_UNIT = (LENGTH, FORCE, LINE_FORCE, TIME)
 
 
@@ -103,7 +103,7 @@ def headings(
     for number, name in enumerate(row.cells, start=1):
         base, stated = split_unit(name, words)
         meanings, trial = meaning(base, words)
-        text = stated if stated is not None else _bare("".join(below[number - 1 : number]))
+        text = stated if stated is not None else bare("".join(below[number - 1 : number]))
         heading = _with_unit(Heading(number, name, trial=trial), meanings, text)
         if meanings and heading.unit is None and meanings[0][0] not in optional:
             error = _no_unit(f"{sheet.place(row)}, {heading}", *meanings[0], text)
@@ -142,12 +142,21 @@ def _no_unit(place: str, quantity: str, dimension: Dimension, text: str) -> Inpu
     )
 
 
+def split_bracketed(name: str) -> tuple[str, str] | None:
+    """Return a name and what stands in brackets behind it; None where nothing does."""
+    match = _BRACKETED.fullmatch(name)
+    return (match[1], match[2]) if match else None
+
+
 def split_unit(name: str, words: Vocabulary) -> tuple[str, str | None]:
     """Return a heading's name and the unit behind it, in brackets or after a mark."""
     name = name.strip(" :")
-    bracketed = _BRACKETED.fullmatch(name)
+    bracketed = split_bracketed(name)
     if bracketed:
-        return bracketed[1], bracketed[2]
+        return bracketed
+    inside = _INSIDE.fullmatch(name)
+    if inside and meaning(behind := f"{inside[1]} {inside[3]}", words)[0]:
+        return behind, inside[2]
     if meaning(name, words)[0]:
         return name, None
     for mark in reversed(list(re.finditer(r"[_\s,/]+(?:in\s+)?", name))):
@@ -167,8 +176,9 @@ def meaning(name: str, words: Vocabulary) -> tuple[Sequence[tuple[str, Dimension
     A word of the vocabulary that ends with n means something with a number only.
     """
     key = plain(name)
-    if key in words:
-        return words[key], False
+    for known in (key, _AVERAGE.sub("", key)):
+        if known in words:
+            return words[known], False
     counted = re.fullmatch(r"(.*?) ?[0-9]{1,3}", key)
     base = counted[1] if counted else ""
     for name in (base, f"{base} n"):
@@ -177,65 +187,13 @@ def meaning(name: str, words: Vocabulary) -> tuple[Sequence[tuple[str, Dimension
     return (), False
 
 
-def _bare(cell: str) -> str:
+def bare(cell: str) -> str:
+    """Return what stands in brackets, or a cell without them."""
     return re.sub(r"^[\[({<]\s*|\s*[\])}>]$", "", cell.strip())
 
 
 def is_units_row(sheet: Sheet, row: Row) -> bool:
     """Whether a row holds units, with brackets or without, and no number."""
-    filled = [_bare(cell) for cell in row.cells if cell]
+    filled = [bare(cell) for cell in row.cells if cell]
     known = sum(any(kind.unit(text) for kind in _ANY_UNIT) for text in filled)
     return 2 * known >= len(filled) > 0 and not any(map(sheet.is_number, filled))
-
-
-_THICKNESS = re.compile(
-    r"(?<![a-z])(thickness|dicke|probendicke|materialdicke|schichtdicke|sample thickness)\b"
-)
-
-
-def thickness_before(sheet: Sheet, rows: Sequence[Row]) -> tuple[float, str] | None:
-    """Return the sample's thickness [m] out of the lines before a table, and where it stands.
-
-    Raises
-    ------
-    InputError
-        If a thickness has no unit or no number, or there are two that differ.
-    """
-    seen: dict[float, str] = {}
-    for row in rows:
-        for index, cell in enumerate(row.cells[:-1] or row.cells):
-            if _THICKNESS.search(plain(cell)):
-                value = _thickness(sheet, row, index)
-                if value is not None:
-                    seen.setdefault(value, f"{sheet.line} {row.line}")
-    if len(seen) > 1:
-        listed = ", ".join(f"{1e3 * value:g} mm in {where}" for value, where in seen.items())
-        raise InputError(
-            f"{sheet.file} has two thicknesses ({listed}); say which with --thickness "
-            "(thickness= in Python)."
-        )
-    return next(iter(seen.items()), None)
-
-
-def _thickness(sheet: Sheet, row: Row, index: int) -> float | None:
-    name = row.cells[index]
-    inside = _BRACKETED.fullmatch(name)
-    values = [part for cell in row.cells[index + 1 :] for part in _number_and_unit(cell)]
-    if not values and (colon := re.search(r"[:=]\s*([0-9].*)$", name)):
-        values = _number_and_unit(colon[1])
-    if not values or not sheet.is_number(values[0]):
-        return None
-    text = inside[2] if inside else _bare(values[1]) if len(values) > 1 else ""
-    unit = LENGTH.unit(text) if text else None
-    if unit is None:
-        raise InputError(
-            f"{sheet.place(row)} gives a thickness of {values[0]} in no unit of length; say it "
-            "with --thickness (thickness= in Python)."
-        )
-    value = sheet.number(values[0], unit)
-    return value if value is not None and 0.0 < value < float("inf") else None
-
-
-def _number_and_unit(cell: str) -> list[str]:
-    match = re.fullmatch(r"([+-]?[0-9.,]+)\s*([^\d\s].*)?", cell)
-    return [part for part in (match.groups() if match else (cell,)) if part]

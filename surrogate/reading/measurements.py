@@ -14,8 +14,8 @@ from surrogate.errors import InputError
 from surrogate.reading import plausibility
 from surrogate.reading.headings import Heading
 from surrogate.reading.plausibility import doubts
-from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheet
-from surrogate.reading.wire_table import COLUMNS, Table, find_table
+from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheets
+from surrogate.reading.wire_table import COLUMNS, Table, find_table, has_table
 
 __all__ = ["COLUMNS", "Measurements", "read_measurements"]
 
@@ -80,14 +80,16 @@ def read_measurements(
     and, where known, the force's standard error ``force_std_<unit>``. Capitals, blanks, units in
     brackets or in a row below the names, and usual names such as ``d (mm)`` and ``F_ss/T [N/m]``
     are understood. Repeats stand in rows, or in columns that are numbered (``trial1_N_per_m``).
-    Columns that are not known are not used, and rows without a radius or a force are skipped;
-    the `notes` name both. Lines that are empty or start with ``#`` are left out.
+    Cells may hold a unit, or an error behind ±. A standard deviation beside a column n, the number
+    of cuts, becomes the standard error of their mean. Columns that are not known are not used, and
+    rows without a radius or a force, or that begin with a word such as Mean, are skipped; the
+    `notes` name them. Lines that are empty or start with ``#`` are left out.
 
     Parameters
     ----------
     path : str, path-like or pandas.DataFrame
         Text with commas, semicolons or tabs, in UTF-8, UTF-16 or CP1252; or .xlsx, of which the
-        first sheet that is not empty is read; or a data frame.
+        first sheet that has such a table is read; or a data frame.
     thickness : float, optional
         Thickness of the sample [m], where forces are not divided by it and no column has it.
     decimal, delimiter, encoding : str, optional
@@ -115,8 +117,14 @@ def read_measurements(
     """
     if thickness is not None:
         thickness = one_number(THICKNESS, thickness)
-    sheet = read_sheet(path, encoding, delimiter, decimal)
-    return _measurements(*find_table(sheet), thickness)
+    sheets = read_sheets(path, encoding, delimiter, decimal)
+    return _measurements(*find_table(_with_table(sheets)), thickness)
+
+
+def _with_table(sheets: list[Sheet]) -> Sheet:
+    """Return the first sheet that holds a table of measurements; of none, the first."""
+    first = next(filter(has_table, sheets), sheets[0])
+    return first.beside([one for one in sheets if one is not first])
 
 
 def _measurements(sheet: Sheet, table: Table, thickness: float | None) -> Measurements:
@@ -155,12 +163,17 @@ class _Reader:
         if self.std and len(self.forces) > 1:
             table.notes.append(f"{sheet.file}: not used beside several trials: {self.std}")
             self.std = None
+        elif self.std and table.count is not None:
+            table.notes.append(
+                f"{sheet.file}: {self.std} is the scatter of cuts, and divided by the square root "
+                f"of their number in column {table.count + 1} ({table.header.cells[table.count]})"
+            )
         elif self.std and "std" not in self.std.name:
             table.notes.append(
                 f"{sheet.file}: {self.std} is taken for the standard error of each force; what is "
                 "the scatter of m cuts must be divided by the square root of m"
             )
-        if "force_per_thickness" in columns and "force" in columns:
+        if "force_per_thickness" in columns and "force" in columns and "thickness" not in columns:
             unused = ", ".join(map(str, columns["force"]))
             table.notes.append(f"{sheet.file}: not used beside force per thickness: {unused}")
 
@@ -174,7 +187,7 @@ class _Reader:
         if self.wire.quantity == "wire_diameter" and radius is not None:
             radius /= 2.0
         sample = row.cells[self.table.sample] if self.table.sample is not None else ""
-        std = self._over_thickness(row, self.std) if self.std else np.inf
+        std = self._standard_error(row) if self.std else np.inf
         for one in self.forces:
             force = self._over_thickness(row, one)
             if radius is None or force is None or std is None:
@@ -183,6 +196,21 @@ class _Reader:
             else:
                 self._compare(row, force)
                 yield radius, force, std, sample
+
+    def _standard_error(self, row: Row) -> float | None:
+        assert self.std is not None
+        std = self._over_thickness(row, self.std)
+        if std is None or self.table.count is None:
+            return std
+        cell = row.cells[self.table.count]
+        number = self.sheet.number(cell)
+        if number is None or not 1.0 <= number < np.inf:
+            raise InputError(
+                f"{self.sheet.place(row)}, column {self.table.count + 1} "
+                f"({self.table.header.cells[self.table.count]}): {cell[:40]!r} is no number of "
+                "cuts; correct it or delete the column."
+            )
+        return float(std / np.sqrt(number))
 
     def _whole(self, row: Row) -> Row:
         width, cells = self.table.width, row.cells

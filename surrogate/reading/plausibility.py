@@ -9,22 +9,29 @@ halve the wear strength: name the column wire_diameter, and it is halved for you
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from surrogate.errors import ImplausibleInputWarning
+
 __all__ = [
     "COHESIVE_LENGTH",
     "FORCE",
+    "FRICTION",
     "RADIUS",
     "SHEAR_MODULUS",
     "TOUGHNESS",
     "WEAR_STRENGTH",
     "WORK_OF_FRACTURE",
     "Plausible",
+    "are_believable",
     "doubts",
+    "doubts_of_scene",
+    "warn_of_scene",
 ]
 
 
@@ -91,6 +98,11 @@ TOUGHNESS = Plausible("the toughness", "J/m^2", 1e-3, 1e6, _ENERGY_SLIPS)
 WEAR_STRENGTH = Plausible("the wear strength", "Pa", 1.0, 1e9, _STRESS_SLIPS)
 """Up to more than the shear strength of the strongest plastics."""
 
+FRICTION = Plausible(
+    "the friction coefficient", "", 0.0, 2.0, ((1e-2, "percent given as a number"),)
+)
+"""Up to that of clean rubber on a dry and smooth wire."""
+
 COHESIVE_LENGTH = Plausible(
     "the elasto-cohesive length Gamma_o/mu",
     "m",
@@ -134,13 +146,16 @@ def doubts(quantity: Plausible, values: Any) -> Iterator[str]:
     >>> list(doubts(RADIUS, 0.125e-3))
     []
     """
+    if not np.size(values):
+        return
     smallest, largest = float(np.min(values)), float(np.max(values))
     if quantity.low <= smallest and largest <= quantity.high:
         return
     shown = f"{smallest:.4g}" if smallest == largest else f"{smallest:.4g} to {largest:.4g}"
+    unit = f" {quantity.unit}" if quantity.unit else ""
     yield (
-        f"{quantity.words} ({shown} {quantity.unit}) is hardly that of a soft solid's cut, "
-        f"which is from {quantity.low:g} to {quantity.high:g} {quantity.unit}; "
+        f"{quantity.words} ({shown}{unit}) is hardly that of a soft solid's cut, "
+        f"which is from {quantity.low:g} to {quantity.high:g}{unit}; "
         f"{_slip(quantity, smallest, largest)}check the unit"
     )
 
@@ -151,3 +166,78 @@ def _slip(quantity: Plausible, smallest: float, largest: float) -> str:
         if quantity.low <= factor * smallest and factor * largest <= quantity.high:
             return f"likely {words}: "
     return ""
+
+
+SCENE = (SHEAR_MODULUS, TOUGHNESS, RADIUS, FRICTION, WEAR_STRENGTH)
+"""What the first five quantities of a scene are."""
+
+
+def are_believable(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any) -> bool:
+    """Whether five numbers can be those of a cut; 0, which neglects something, always can.
+
+    Examples
+    --------
+    >>> are_believable(685.0, 1.6, 0.2e-3, 0.0, 7750.0), are_believable(685.0, 1.6, 0.2, 0.0, 0.0)
+    (True, False)
+    """
+    # The ranges of SCENE and COHESIVE_LENGTH once more: every force of one wire passes here.
+    return bool(
+        (1.0 <= mu <= 1e8 or mu == 0.0)
+        and (1e-3 <= gamma <= 1e6 or gamma == 0.0)
+        and (1e-6 <= radius <= 1e-2 or radius == 0.0)
+        and 0.0 <= xi <= 2.0
+        and (1.0 <= tau <= 1e9 or tau == 0.0)
+        and (gamma <= mu or mu == 0.0)
+    )
+
+
+def doubts_of_scene(values: Sequence[Any]) -> list[str]:
+    """Return what can hardly be meant among the quantities of a scene, in words.
+
+    Parameters
+    ----------
+    values : sequence of float or array_like
+        Modulus, toughness, radius, friction and wear of a scene, in its order [SI]; what is 0
+        neglects something and is not doubted, and None is not known.
+
+    Examples
+    --------
+    >>> for sentence in doubts_of_scene((685.0, 1.6, 0.2e-3, 3.0, 0.0)):
+    ...     print(sentence)
+    the friction coefficient (3) is hardly that of a soft solid's cut, which is from 0 to 2; \
+likely percent given as a number: check the unit
+    """
+    sentences: list[str] = []
+    for quantity, value in zip(SCENE, values, strict=False):
+        if value is not None:
+            sentences += doubts(quantity, _not_zero(quantity, value))
+    mu, gamma = values[:2]
+    if not sentences and mu is not None and gamma is not None:
+        with np.errstate(all="ignore"):
+            length = np.where(np.equal(mu, 0.0), 0.0, np.divide(gamma, mu))
+        sentences += doubts(COHESIVE_LENGTH, length)
+    return sentences
+
+
+def warn_of_scene(values: Sequence[Any], depth: int = 3) -> None:
+    """Warn of each doubt about a scene, as if the caller's caller did.
+
+    Parameters
+    ----------
+    values : sequence of float or ndarray
+        See `doubts_of_scene`.
+    depth : int
+        Whose line the warning names: 3 for that of the caller's caller.
+    """
+    mu, gamma, radius, xi, tau = values[:5]
+    if type(mu) is type(gamma) is type(radius) is type(xi) is type(tau) is float and are_believable(
+        mu, gamma, radius, xi, tau
+    ):
+        return
+    for sentence in doubts_of_scene(values):
+        warnings.warn(f"{sentence}.", ImplausibleInputWarning, stacklevel=depth)
+
+
+def _not_zero(quantity: Plausible, value: Any) -> Any:
+    """Return values with a believable one in place of 0."""
+    return np.where(np.equal(value, 0.0), quantity.high, value)

@@ -32,20 +32,31 @@ _WORDS = vocabulary(
         "axial displacement,axial position,compressive extension,compressive displacement,"
         "compression extension,compression displacement,compression,compressive travel,"
         "standard travel,machine displacement,actuator displacement,actuator position,depth,"
-        "penetration,penetration depth,cutting depth,disp,traversenweg,weg,standardweg,"
-        "traversenweg absolut,absolute crosshead travel,verschiebung,verlangerung,"
-        "kolbenweg,maschinenweg,eindringtiefe,position absolut,kompressionsweg,stauchung,"
-        "druckverformung,verformung,deplacement,traverse,desplazamiento,corsa",
+        "penetration,penetration depth,cutting depth,disp,deformation,extensión,"
+        "traversenweg,weg,standardweg,traversenweg absolut,absolute crosshead travel,verschiebung,"
+        "verlangerung,kolbenweg,maschinenweg,eindringtiefe,position absolut,kompressionsweg,"
+        "stauchung,druckverformung,verformung,"
+        "deplacement,deplacement traverse,deplacement de la traverse,traverse,course,"
+        "extension en compression,deplacement en compression,allongement,enfoncement,"
+        "desplazamiento,desplazamiento del cabezal,extension de compresion,carrera,"
+        "corsa,spostamento,spostamento traversa,deslocamento,curso,verplaatsing,slag,"
+        "przemieszczenie,droga,förskjutning,forskydning,位移,行程,变形,変位,ストローク,変形",
         "force": "force,load,axial force,axial load,compressive load,compressive force,"
         "compression load,compression force,standard force,test force,normal force,primary force,"
-        "machine load,load cell,loadcell,last,kraft,standardkraft,prufkraft,pruefkraft,druckkraft,"
-        "drucklast,kompressionslast,axialkraft,normalkraft,belastung,charge,fuerza,carga,forza,"
-        "effort",
+        "machine load,load cell,loadcell,"
+        "last,kraft,standardkraft,prufkraft,pruefkraft,druckkraft,drucklast,kompressionslast,"
+        "axialkraft,normalkraft,belastung,"
+        "charge,charge de compression,charge en compression,force de compression,force standard,"
+        "effort,fuerza,carga,carga de compresion,fuerza de compresion,forza,carico,"
+        "carico di compressione,forca,forca de compressao,kracht,belasting,siła,obciazenie,"
+        "力,负荷,载荷,力值,荷重,試験力",
         "time": "time,zeit,test time,testzeit,prufzeit,pruefzeit,running time,elapsed time,"
-        "total time,time stamp,timestamp,temps,tiempo,tempo,t",
+        "total time,time stamp,timestamp,temps,temps ecoule,tiempo,tempo,tijd,czas,tid,t,"
+        "时间,時間",
     },
 )
 _NEEDED = ("displacement", "force")
+_OVER_TIME = ("time", "force")
 LEAST_ROWS = 2
 
 
@@ -60,6 +71,8 @@ class Block(NamedTuple):
 def blocks(sheet: Sheet, columns: str | None) -> Iterator[Block]:
     """Yield every table of displacements and forces, or that whose columns the caller names.
 
+    Where a file has none of them, those of times and forces are yielded.
+
     Raises
     ------
     InputError
@@ -68,10 +81,16 @@ def blocks(sheet: Sheet, columns: str | None) -> Iterator[Block]:
     if columns is not None:
         yield _named_by_caller(sheet, columns)
         return
+    needed = _NEEDED if any(_is_header(row, _NEEDED) for row in sheet.rows) else _OVER_TIME
+    yield from _tables(sheet, needed)
+
+
+def _tables(sheet: Sheet, needed: Sequence[str]) -> Iterator[Block]:
     rows, start, index = sheet.rows, 0, 0
+    optional = () if needed is _OVER_TIME else ("time",)
     while index < len(rows):
         row = rows[index]
-        if not _is_header(row):
+        if not _is_header(row, needed):
             index += 1
             continue
         first = index + 1
@@ -82,8 +101,8 @@ def blocks(sheet: Sheet, columns: str | None) -> Iterator[Block]:
             end += 1
         if end - first >= LEAST_ROWS:
             _check_end(sheet, rows, end, row)
-            listed = headings(sheet, row, _WORDS, units, optional=("time",))
-            yield Block(rows[start:index], _sides(sheet, row, listed), rows[first:end])
+            listed = headings(sheet, row, _WORDS, units, optional)
+            yield Block(rows[start:index], _sides(sheet, row, listed, needed), rows[first:end])
             start = end
         index = max(end, index + 1)
 
@@ -91,10 +110,12 @@ def blocks(sheet: Sheet, columns: str | None) -> Iterator[Block]:
 def _named_by_caller(sheet: Sheet, columns: str) -> Block:
     names = Row(0, [name.strip() for name in columns.split(",")])
     listed = headings(Sheet("columns", []), names, _WORDS)
-    if not {"displacement", "force"} <= {one.quantity for one in listed}:
+    quantities = {one.quantity for one in listed}
+    needed = _NEEDED if "displacement" in quantities else _OVER_TIME
+    if not set(needed) <= quantities:
         raise InputError(
-            f"columns {columns!r} name no displacement or no force; write for instance "
-            "time_s,displacement_mm,force_N, one name a column."
+            f"columns {columns!r} name no force, or neither a displacement nor a time; write for "
+            "instance time_s,displacement_mm,force_N, one name a column."
         )
     data = [row for row in sheet.rows if _is_data(sheet, row, names)]
     if not data:
@@ -102,12 +123,12 @@ def _named_by_caller(sheet: Sheet, columns: str) -> Block:
             f"{sheet.file} has no rows of {len(names.cells)} numbers; name all its columns."
         )
     before = sheet.rows[: sheet.rows.index(data[0])]
-    return Block(before, _sides(sheet, names, listed), data)
+    return Block(before, _sides(sheet, names, listed, needed), data)
 
 
-def _is_header(row: Row) -> bool:
+def _is_header(row: Row, needed: Sequence[str]) -> bool:
     means = {one[0][0][0] for cell in row.cells if (one := meaning(_base(cell), _WORDS))[0]}
-    return set(_NEEDED) <= means
+    return set(needed) <= means
 
 
 def _base(cell: str) -> str:
@@ -133,7 +154,9 @@ def _check_end(sheet: Sheet, rows: list[Row], end: int, header: Row) -> None:
         )
 
 
-def _sides(sheet: Sheet, header: Row, listed: list[Heading]) -> list[list[Heading]]:
+def _sides(
+    sheet: Sheet, header: Row, listed: list[Heading], needed: Sequence[str]
+) -> list[list[Heading]]:
     """Return the columns of each specimen in a table: a name that comes again begins the next."""
     known = [one for one in listed if one.quantity]
     names = [plain(one.name) for one in known]
@@ -141,29 +164,29 @@ def _sides(sheet: Sheet, header: Row, listed: list[Heading]) -> list[list[Headin
         repeats = [i for i, name in enumerate(names) if name == names[0]]
         sides = [known[i:j] for i, j in zip(repeats, [*repeats[1:], len(known)], strict=True)]
     else:
-        sides = _numbered(known)
+        sides = _numbered(known, needed)
     for side in sides:
-        _check_side(sheet, header, side)
+        _check_side(sheet, header, side, needed)
     return sides
 
 
-def _numbered(known: list[Heading]) -> list[list[Heading]]:
+def _numbered(known: list[Heading], needed: Sequence[str]) -> list[list[Heading]]:
     """Return columns by the number behind their names, such as Force 1 and Force 2."""
     numbers = [plain(split_unit(one.name, _WORDS)[0]).split()[-1] for one in known]
     groups: dict[str, list[Heading]] = {}
     for number, one in zip(numbers, known, strict=True):
         groups.setdefault(number if one.trial else "", []).append(one)
     if len(groups) < 2 or not all(
-        set(_NEEDED) <= {one.quantity for one in side} for side in groups.values()
+        set(needed) <= {one.quantity for one in side} for side in groups.values()
     ):
         return [known]
     return list(groups.values())
 
 
-def _check_side(sheet: Sheet, header: Row, side: list[Heading]) -> None:
+def _check_side(sheet: Sheet, header: Row, side: list[Heading], needed: Sequence[str]) -> None:
     for quantity in (*_NEEDED, "time"):
         columns = [one for one in side if one.quantity == quantity]
-        if len(columns) > 1 or (not columns and quantity in _NEEDED):
+        if len(columns) > 1 or (not columns and quantity in needed):
             state = (
                 "several columns of " + quantity + ": " + " and ".join(map(str, columns))
                 if columns

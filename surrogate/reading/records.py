@@ -8,17 +8,25 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.checks import shown
+from surrogate.basics.checks import SMALLEST, Quantity, one_number, shown
 from surrogate.basics.checks import text as checked_text
 from surrogate.basics.files import file_name
 from surrogate.basics.records import Record
 from surrogate.errors import InputError
-from surrogate.reading.headings import Heading, thickness_before
+from surrogate.reading.before import (
+    Stated,
+    speed_before,
+    thickness_before,
+    thicknesses_by_specimen,
+)
+from surrogate.reading.headings import Heading
 from surrogate.reading.record_tables import LEAST_ROWS, Block, blocks
-from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheet
+from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheets
 from surrogate.reading.units import FORCE, LENGTH, TIME
 
 __all__ = ["CutRecord", "read_record", "read_records"]
+
+_SPEED = Quantity("speed", "m/s", "give the speed of the cut in metres a second", SMALLEST, 1e30)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +42,8 @@ class CutRecord(Record):
     time : ndarray, shape (n,), or None
         Time [s].
     thickness : float or None
-        Thickness of the sample, where the file's lines before the table tell it [m].
+        Thickness of the sample, where the file's lines before the table tell it, for all of its
+        specimens or one by one [m].
     file : str
         The file.
     specimen : int
@@ -67,6 +76,7 @@ def read_record(
     *,
     columns: str | None = None,
     sign: str | None = None,
+    speed: float | None = None,
     decimal: str | None = None,
     delimiter: str | None = None,
     encoding: str | None = None,
@@ -79,7 +89,7 @@ def read_record(
         Text or .xlsx, see `read_records`.
     specimen : int, optional
         Which specimen of the file, from 1, where it holds several.
-    columns, sign, decimal, delimiter, encoding : str, optional
+    columns, sign, speed, decimal, delimiter, encoding : optional
         See `read_records`.
 
     Returns
@@ -106,6 +116,7 @@ def read_record(
         path,
         columns=columns,
         sign=sign,
+        speed=speed,
         decimal=decimal,
         delimiter=delimiter,
         encoding=encoding,
@@ -131,18 +142,21 @@ def read_records(
     *,
     columns: str | None = None,
     sign: str | None = None,
+    speed: float | None = None,
     decimal: str | None = None,
     delimiter: str | None = None,
     encoding: str | None = None,
 ) -> tuple[CutRecord, ...]:
     """Read every record in an export of a testing machine.
 
-    A record is the table below a row that names a displacement and a force, in English or German
-    (Extension, Crosshead, Distance, Stroke, Traversenweg, ...; Load, Force, Standardkraft, ...),
-    with units in brackets, behind the name or in the row below. What stands before it is only
-    searched for the sample's thickness. Tables below one another and side by side are several
-    records. Force is turned where compression is counted as negative, displacement where it falls
-    as the wire cuts, and what comes after the farthest travel is left out.
+    A record is the table below a row that names a displacement and a force, in English, German and
+    other languages (Extension, Crosshead, Stroke, Traversenweg, ...; Load, Standardkraft, ...),
+    with units in brackets, behind the name or in the row below. Where the file has a time but no
+    displacement, travel is time by speed. What stands before a table is searched for the sample's
+    thickness and, where there is need, the speed. Tables below one another, side by side and on
+    several sheets are several records. Force is turned where compression is counted as negative,
+    displacement where it falls as the wire cuts, and what comes after the farthest travel is left
+    out.
 
     Parameters
     ----------
@@ -153,6 +167,8 @@ def read_records(
         file or where it has none, such as ``time_s,displacement_mm,force_N``.
     sign : {"positive", "negative"}, optional
         How the file counts the force that cuts; by default it is read off the larger forces.
+    speed : float, optional
+        Speed of the cut [m/s], for files with a time and without a displacement.
     decimal, delimiter, encoding : str, optional
         Those of a text file; by default they are read off it.
 
@@ -182,34 +198,73 @@ def read_records(
             checked_text(name, value, "leave it out, or give a text")
     if sign not in (None, "positive", "negative"):
         raise InputError(f"sign {sign!r} is not known; choose 'positive' or 'negative'.")
-    sheet = read_sheet(path, encoding, delimiter, decimal)
-    records: list[CutRecord] = []
-    general: tuple[float, str] | None = None
-    for block in blocks(sheet, columns):
-        thickness = thickness_before(sheet, block.before) or general
-        general = general or thickness
-        for side in block.sides:
-            records.append(_record(sheet, block, side, thickness, sign, len(records) + 1))
-    if not records:
+    speed = None if speed is None else one_number(_SPEED, speed)
+    sheets = read_sheets(path, encoding, delimiter, decimal)
+    tables = [(sheet, block) for sheet in sheets for block in blocks(sheet, columns)]
+    if not tables:
         raise InputError(
-            f"{sheet.file} has no row that names a displacement and a force; name all columns "
-            "with their units by --columns time_s,displacement_mm,force_N (columns= in Python)."
+            f"{sheets[0].file} has no row that names a displacement and a force; name all columns "
+            "with their units by --columns time_s,displacement_mm,force_N (columns= in Python), or "
+            "the file's encoding by --encoding (encoding= in Python)."
         )
-    return tuple(records)
+    told = _Told(sheets, tables, speed)
+    return tuple(
+        _record(sheet, block, side, told.of(sheet, block, number), sign, number)
+        for number, (sheet, block, side) in enumerate(
+            ((sheet, block, side) for sheet, block in tables for side in block.sides), start=1
+        )
+    )
+
+
+class _Told:
+    """What a file tells of its specimens besides their records: thickness and speed."""
+
+    def __init__(
+        self, sheets: list[Sheet], tables: list[tuple[Sheet, Block]], speed: float | None
+    ) -> None:
+        self.option = None if speed is None else (speed, "as you say")
+        with_tables = [sheet for sheet, _ in tables]
+        apart = [(sheet, sheet.rows) for sheet in sheets if sheet not in with_tables]
+        first = [(tables[0][0], tables[0][1].before)]
+        self.common = [(sheet, rows) for sheet, rows in (*apart, *first) if rows]
+        self.results: dict[int, Stated] = {}
+        for sheet, rows in self.common:
+            self.results.update(thicknesses_by_specimen(sheet, rows))
+
+    def of(self, sheet: Sheet, block: Block, specimen: int) -> tuple[Stated | None, Stated | None]:
+        """Return the thickness [m] of a specimen and, where there is need, its speed [m/s]."""
+        places = [(sheet, block.before), *self.common]
+        thickness = next((x for place in places if (x := thickness_before(*place))), None)
+        if thickness is None and len(self.results) == 1:
+            thickness = next(iter(self.results.values()))
+        thickness = self.results.get(specimen, thickness)
+        if any(one.quantity == "displacement" for one in block.sides[0]):
+            return thickness, None
+        speed = self.option or next((x for place in places if (x := speed_before(*place))), None)
+        if speed is None:
+            raise InputError(
+                f"{sheet.file} has a force over the time and no displacement; give the speed of "
+                "the cut with --speed 1mm/s (speed= in Python), or name the column of the "
+                "displacement by --columns (columns= in Python)."
+            )
+        return thickness, speed
 
 
 def _record(
     sheet: Sheet,
     block: Block,
     side: list[Heading],
-    thickness: tuple[float, str] | None,
+    told: tuple[Stated | None, Stated | None],
     sign: str | None,
     specimen: int,
 ) -> CutRecord:
+    thickness, speed = told
     columns = {one.quantity: one for one in side}
     notes: list[str] = []
     values = _values(sheet, block.rows, columns, notes)
     place = f"{sheet.file}, specimen {specimen}"
+    if speed is not None:
+        values["displacement"] = _travelled(place, values["time"], speed[0])
     force, turned = _turned_force(place, values["force"], sign)
     displacement, falling = _turned_displacement(place, values["displacement"])
     end = int(np.argmax(displacement)) + 1
@@ -224,6 +279,8 @@ def _record(
     words = [
         f"{one.quantity} from {one.name!r} in {_unit_of(one, block)}" for one in columns.values()
     ]
+    if speed is not None:
+        words.append(f"displacement from time at {1e3 * speed[0]:g} mm/s ({speed[1]})")
     signs = ["compression negative, turned"] * turned + ["displacement falling, turned"] * falling
     words += signs or ["compression positive"]
     words += [f"{len(force)} rows from {sheet.line} {block.rows[0].line}"]
@@ -239,6 +296,16 @@ def _record(
         f"{place}: {'; '.join(words)}; {sheet.form}",
         (*sheet.notes, *notes),
     )
+
+
+def _travelled(place: str, time: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    if np.isnan(time).any():
+        raise InputError(
+            f"{place}: the time is no plain number of seconds, and the travel would follow from "
+            "it; export the displacement."
+        )
+    travel: NDArray[np.float64] = (time - time[0]) * speed
+    return travel
 
 
 def _unit_of(one: Heading, block: Block) -> str:

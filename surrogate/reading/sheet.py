@@ -20,11 +20,16 @@ from surrogate.errors import InputError
 from surrogate.reading.text import read_lines
 from surrogate.reading.units import SI, Unit, parse_number
 
-__all__ = ["Row", "Sheet", "read_sheet"]
+__all__ = ["Row", "Sheet", "read_sheet", "read_sheets"]
 
 _DELIMITERS = {"\t": "tab", ";": "semicolon", ",": "comma", "|": "bar", " ": "blank"}
 _NUMBERISH = re.compile(r"[+-]?(?:[0-9][0-9.,]*|[.,][0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
+_WITH_UNIT = re.compile(
+    rf"({_NUMBERISH.pattern})(?:\s*(?:\u00b1|\+/?-)\s*{_NUMBERISH.pattern})?(?:\s*[^\W\d]\S{{0,7}})?"
+)
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}(?P<mark>[.,])[0-9]{3}(?:(?P=mark)[0-9]{3})*")
+_APART = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:['\u2019 ][0-9]{3})+(?![0-9])")
+"""Thousands with an apostrophe or a blank between them."""
 _COMMENT = re.compile(r'\s*"*#(?!"?\s*[,;\t])')
 _SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
 EMPTY = frozenset(("", "-", "--", "\u2013", "\u2014", "n/a", "#n/a", "na", "n.a."))
@@ -84,6 +89,11 @@ class Sheet:
         ]
         return replace(self, rows=rows, line="column")
 
+    def beside(self, others: Sequence[Sheet]) -> Sheet:
+        """Return this sheet with a note about others of the file, which are not read."""
+        notes = (f"{one.file}: {one.form.partition(', ')[2]} is not read" for one in others)
+        return replace(self, notes=(*self.notes, *notes))
+
     def place(self, row: Row) -> str:
         """Return where a row is, for messages."""
         return f"{self.file}, {self.line} {row.line}"
@@ -95,7 +105,21 @@ def read_sheet(
     delimiter: str | None = None,
     decimal: str | None = None,
 ) -> Sheet:
-    """Read a text file, a spreadsheet (.xlsx) or a data frame of pandas.
+    """Read a text file, the first sheet of a spreadsheet (.xlsx) or a data frame of pandas.
+
+    What the other sheets are called stands in the notes; for the rest see `read_sheets`.
+    """
+    first, *others = read_sheets(source, encoding, delimiter, decimal)
+    return first.beside(others)
+
+
+def read_sheets(
+    source: Any,
+    encoding: str | None = None,
+    delimiter: str | None = None,
+    decimal: str | None = None,
+) -> list[Sheet]:
+    """Read a text file, every sheet of a spreadsheet (.xlsx), or a data frame of pandas.
 
     Parameters
     ----------
@@ -106,8 +130,8 @@ def read_sheet(
 
     Returns
     -------
-    Sheet
-        Its rows.
+    list of Sheet
+        Its rows; those of a spreadsheet that are not empty, at least one.
 
     Raises
     ------
@@ -117,7 +141,7 @@ def read_sheet(
     pandas = sys.modules.get("pandas")
     if pandas is not None and isinstance(source, pandas.DataFrame):
         rows = [list(source.columns), *source.itertuples(index=False, name=None)]
-        return Sheet("the data frame", list(_rows_of(rows)), form="a data frame")
+        return [Sheet("the data frame", list(_rows_of(rows)), form="a data frame")]
     for name, value in (("encoding", encoding), ("delimiter", delimiter), ("decimal", decimal)):
         if value is not None:
             checked_text(name, value, "leave it out, or give a text")
@@ -127,7 +151,7 @@ def read_sheet(
         return _workbook(file)
     if ending in (".xls", ".ods"):
         raise InputError(f"{file} is a spreadsheet that is not read; save it as .xlsx or CSV.")
-    return _text_sheet(file, encoding, _delimiter(delimiter), _decimal(decimal))
+    return [_text_sheet(file, encoding, _delimiter(delimiter), _decimal(decimal))]
 
 
 def _rows_of(rows: Iterable[Sequence[Any]]) -> Iterator[Row]:
@@ -146,7 +170,7 @@ def _cell(value: Any) -> str:
     return repr(float(value)) if hasattr(value, "__float__") else str(value)
 
 
-def _workbook(file: str) -> Sheet:
+def _workbook(file: str) -> list[Sheet]:
     require_extra("openpyxl", f"{file}, a spreadsheet,", "excel")
     from openpyxl import load_workbook
 
@@ -165,8 +189,16 @@ def _workbook(file: str) -> Sheet:
         ) from None
     if not sheets:
         raise InputError(f"{file} is empty; write a header and one line a wire.")
-    notes = tuple(f"{file}: sheet {title!r} is not read" for title, _ in sheets[1:])
-    return Sheet(file, sheets[0][1], form=f"spreadsheet, sheet {sheets[0][0]!r}", notes=notes)
+    one = len(sheets) == 1
+    return [
+        Sheet(
+            file,
+            rows,
+            form=f"spreadsheet, sheet {title!r}",
+            line="line" if one else f"sheet {title!r}, line",
+        )
+        for title, rows in sheets
+    ]
 
 
 def _delimiter(text: str | None) -> str | None:
@@ -237,7 +269,8 @@ def _delimiter_of(lines: list[str]) -> str:
 
 
 def _is_numberish(cell: str) -> bool:
-    return _NUMBERISH.fullmatch(cell) is not None
+    """Whether a cell looks like a number, with an error or a unit behind it or not."""
+    return _WITH_UNIT.fullmatch(cell) is not None
 
 
 def _numbers(cells: list[str]) -> int:
@@ -282,8 +315,10 @@ def _decimal_of(file: str, rows: list[Row], delimiter: str) -> str:
 
 def _sign_of(cell: str) -> str:
     """Return a number's decimal sign, that sign and ? where it may mark thousands, or nothing."""
-    if not _is_numberish(cell):
+    match = _WITH_UNIT.fullmatch(cell)
+    if match is None:
         return ""
+    cell = match[1]
     marks = [mark for mark in cell if mark in ".,"]
     if not marks:
         return ""
@@ -297,6 +332,8 @@ def _sign_of(cell: str) -> str:
 def _pointed(cell: str, decimal: str) -> str:
     """Return a number with a decimal point and no marks of thousands."""
     cell = cell.replace("\u2212", "-").replace("\u202f", "").replace("\xa0", "")
+    if _APART.match(cell):
+        cell = re.sub("['\u2019 ]", "", cell)
     other = "," if decimal == "." else "."
     if other in cell:
         whole = cell.partition(decimal)[0]

@@ -15,6 +15,13 @@ LARGEST_FILE = 30_000_000
 LONGEST_LINE = 10_000
 _CHUNK = 100_000
 
+_WORDS = {
+    ("cp932", "Shift-JIS"): ("試験力", "荷重", "変位", "ストローク", "線径", "厚さ"),
+    ("gb18030", "GB18030"): ("位移", "时间", "载荷", "负荷", "线径", "直径", "厚度"),
+    ("cp1250", "CP1250"): ("siła", "Siła", "średnica", "Średnica", "grubość", "Grubość"),
+}
+"""Encodings that are told from CP1252 by a word that a table has in them."""
+
 _MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig", "UTF-8"),
     (codecs.BOM_UTF16_LE, "utf-16", "UTF-16"),
@@ -31,8 +38,9 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
         Its name.
     encoding : str, optional
         Name of its encoding. By default a byte-order mark tells it, then the zeros that UTF-16
-        has in every second place; then it is UTF-8 where the bytes are, and else CP1252,
-        which differs from Latin-1 in no letter.
+        has in every second place; then it is UTF-8 where the bytes are; then Shift-JIS, GB18030 or
+        CP1250 where a word of a table shows it, and else CP1252, which differs from Latin-1 in no
+        letter.
 
     Returns
     -------
@@ -86,8 +94,17 @@ def _encoding_of(raw: bytes) -> tuple[str, str]:
     try:
         raw.decode("utf-8")
     except UnicodeDecodeError:
-        return "cp1252", "CP1252"
+        return next(filter(lambda one: _shows(raw, one), _WORDS), ("cp1252", "CP1252"))
     return "utf-8", "UTF-8"
+
+
+def _shows(raw: bytes, encoding: tuple[str, str]) -> bool:
+    """Whether a file is text in an encoding, with one of the words that tell it."""
+    try:
+        text = raw.decode(encoding[0])
+    except UnicodeDecodeError:
+        return False
+    return any(word in text for word in _WORDS[encoding])
 
 
 def _decoded(file: str, raw: bytes, codec: str, name: str) -> str:
@@ -101,5 +118,6 @@ def _decoded(file: str, raw: bytes, codec: str, name: str) -> str:
         line = raw[: getattr(error, "start", 0)].count(b"\n") + 1
         raise InputError(
             f"{file}, line {line} is no text in {name} (byte {getattr(error, 'start', 0) + 1} of "
-            "the file); name its encoding (--encoding, encoding=) or save it as 'CSV UTF-8'."
+            "the file); name its encoding by --encoding (encoding= in Python) or save it as 'CSV "
+            "UTF-8'."
         ) from None

@@ -74,6 +74,8 @@ _SYNONYMS = {
     **{"kp": "kgf", "pond": "gf", "newton": "N", "newtons": "N", "millinewton": "mN"},
     **{"kilonewton": "kN", "gram": "g", "grams": "g", "gramm": "g", "meter": "m", "metre": "m"},
     **{"millimeter": "mm", "millimetre": "mm", "millimeters": "mm", "micron": "um"},
+    **{f"{one}/sec": f"{one}/s" for one in ("mm", "cm", "m", "in")},
+    **{name: name for name in ("mm/s", "mm/min", "cm/min", "in/min")},
     **{"microns": "um", "micrometer": "um", "micrometre": "um", "minutes": "min", "msec": "ms"},
 }
 
@@ -112,6 +114,19 @@ _LINE_WEIGHTS = {
 LENGTH = Dimension("a length", {"m": 0, "cm": -2, "mm": -3, "um": -6}, {"in": Unit(0, _INCH)})
 FORCE = Dimension("a force", {"N": 0, "mN": -3, "uN": -6, "cN": -2, "kN": 3}, _WEIGHTS)
 TIME = Dimension("a time", {"s": 0, "ms": -3}, {"min": Unit(0, 60.0), "h": Unit(0, 3600.0)})
+_MINUTE = 1.0 / 60.0
+SPEED = Dimension(
+    "a speed",
+    {"m/s": 0, "cm/s": -2, "mm/s": -3, "um/s": -6},
+    {
+        "m/min": Unit(0, _MINUTE),
+        "cm/min": Unit(-2, _MINUTE),
+        "mm/min": Unit(-3, _MINUTE),
+        "um/min": Unit(-6, _MINUTE),
+        "in/s": Unit(0, _INCH),
+        "in/min": Unit(0, _INCH * _MINUTE),
+    },
+)
 STRESS = Dimension("a stress", _STRESS_POWERS)
 LINE_FORCE = Dimension(
     "a force per thickness", _LINE_FORCE_POWERS | _SURFACE_ENERGY_POWERS, _LINE_WEIGHTS
@@ -176,6 +191,11 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     """
     match = _QUANTITY.fullmatch(text.strip())
     unit = dimension.unit(match["unit"]) if match and match["unit"] else SI
+    if match is None and text.strip() and dimension.unit(text):
+        unit_alone = text.strip()
+        raise InputError(
+            f"{text!r} is a unit without its number; write both as one, such as 1.5{unit_alone}."
+        )
     if match is None or unit is None:
         raise InputError(f"{text!r} is not {dimension.name}; {dimension.remedy}.")
     return _scaled(match, unit)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from surrogate.errors import InputError
+from surrogate.reading.before import thickness_before
 from surrogate.reading.headings import (
     Heading,
     headings,
@@ -13,13 +15,12 @@ from surrogate.reading.headings import (
     meaning,
     plain,
     split_unit,
-    thickness_before,
     vocabulary,
 )
 from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, Dimension
 
-__all__ = ["COLUMNS", "Table", "find_table"]
+__all__ = ["COLUMNS", "Table", "find_table", "has_table"]
 
 COLUMNS: dict[str, Dimension] = {
     "wire_radius": LENGTH,
@@ -32,6 +33,12 @@ COLUMNS: dict[str, Dimension] = {
 """Quantities that a table of measurements may hold."""
 
 _FORCES = (("force_per_thickness", LINE_FORCE), ("force", FORCE))
+_SPREAD = (
+    "std,stdev,std dev,st dev,sd,se,sem,stderr,std err,standard error,standard deviation,error,"
+    "std error,uncertainty,+/-,±,fehler,standardfehler,standardabweichung,ecart type,erreur type,"
+    "desviacion estandar,error estandar,deviazione standard,errore standard,desvio padrao,"
+    "standaardafwijking,odchylenie standardowe,标准差,標準偏差,標準誤差"
+)
 _WORDS = vocabulary(
     {
         "wire_radius": [("wire_radius", LENGTH)],
@@ -44,27 +51,58 @@ _WORDS = vocabulary(
     },
     {
         "wire_radius": "wire_radius,radius,r,r_w,rw,radius of wire,drahtradius,radius wire,"
-        "needle radius,blade radius,fiber radius,fibre radius",
+        "needle radius,blade radius,fiber radius,fibre radius,rayon,rayon du fil,radio,"
+        "radio del alambre,radio del hilo,raggio,raggio filo,raggio del filo,raio,raio do fio,"
+        "straal,promien,promien drutu,半径",
         "wire_diameter": "wire_diameter,diameter,d,d_w,dw,dia,wire dia,wire diam,wire,wire size,"
         "diameter of wire,drahtdurchmesser,durchmesser,draht,needle diameter,ø,wire ø,draht ø,"
-        "fiber diameter,fibre diameter",
+        "fiber diameter,fibre diameter,⌀,diametre,diametre du fil,diametre fil,fil,diametro,"
+        "diametro del alambre,diametro alambre,diametro del hilo,diametro hilo,diametro filo,"
+        "diametro del filo,diametro do fio,diametro fio,draaddiameter,diameter draad,srednica,"
+        "srednica drutu,tråddiameter,线径,丝径,直径,线直径,線径,ワイヤ径,ワイヤー径",
         "force_per_thickness": "force_per_thickness,f_ss/t,fss/t,f/t,f_ss per t,force/thickness,"
         "steady force per thickness,cutting force per thickness,mean force per thickness,"
         "steady state force per thickness,force per width,line force,f/b,f/w,"
-        "kraft pro dicke,kraft je dicke,kraft/dicke,linienkraft",
+        "kraft pro dicke,kraft je dicke,kraft/dicke,linienkraft,force par epaisseur,"
+        "force/epaisseur,f/e,fuerza por espesor,fuerza/espesor,forza per spessore,"
+        "forza/spessore,f/s,forca/espessura,kracht/dikte,kracht per dikte,siła/grubosc",
         "force": "force,f,f_ss,fss,steady force,steady state force,cutting force,mean force,"
         "average force,steady_state_force,plateau force,load,mean load,steady load,kraft,"
-        "schnittkraft,mittlere kraft,last,force mean",
-        "force_std": "force_std,std,stdev,std dev,sd,se,sem,stderr,std err,standard error,"
-        "standard deviation,error,force error,force se,force sem,force sd,std error,force_stderr,"
-        "force_per_thickness_std,force per thickness std,f_ss/t std,f/t std,fehler,"
-        "standardfehler,standardabweichung,uncertainty,+/-,±",
+        "schnittkraft,mittlere kraft,last,force mean,force de coupe,fuerza,fuerza de corte,carga,"
+        "forza,forza di taglio,forca,forca de corte,kracht,snijkracht,siła,siła ciecia,skärkraft,"
+        "力,切割力,切断力,荷重,切断荷重,載荷,载荷",
+        "force_std": ",".join(
+            f"{quantity}{words}"
+            for words in _SPREAD.split(",")
+            for quantity in ("", "force ", "load ", "f/t ", "f_ss/t ", "force per thickness ")
+        ),
         "thickness": "thickness,sample thickness,specimen thickness,t,gel thickness,dicke,"
-        "probendicke,thickness of sample,thickness of the sample",
+        "probendicke,thickness of sample,thickness of the sample,epaisseur,espesor,spessore,"
+        "espessura,dikte,grubosc,tjocklek,厚度,厚さ,厚み",
         "trial": "trial n,run n,repeat n,rep n,replicate n,test n,measurement n,messung n,"
-        "versuch n,cut n,schnitt n,wiederholung n",
+        "versuch n,cut n,schnitt n,wiederholung n,essai n,ensayo n,prova n,meting n",
     },
 )
+_SUMMARY = re.compile(
+    r"(mean|average|median|std|sd|stdev|st dev|standard deviation|standard error|sem|cov|cv|"
+    r"coefficient of variation|minimum|maximum|min|max|range|sum|"
+    r"mittelwert|standardabweichung|variationskoeffizient|spannweite|moyenne|ecart type|"
+    r"media|mediana|desviacion estandar|deviazione standard|x quer|n|x̄)( [±+-] .*)?"
+)
+"""First cells of lines below a table that sum it up, and are no measurements."""
+_COUNT = {"n", "count", "number", "anzahl", "number of cuts", "number of tests", "repeats", "cuts"}
+_DEVIATION = re.compile(
+    r"\b(sd|stdev|std dev|st dev|standard deviation|standardabweichung|ecart type|"
+    r"desviacion estandar|deviazione standard|desvio padrao|standaardafwijking|"
+    r"odchylenie standardowe|标准差|標準偏差)\b"
+)
+_WITH_ERROR = re.compile(r"(.*[0-9.,])\s*(?:±|\+/?-)\s*([0-9.,].*)")
+_WITH_UNIT = re.compile(r"([+-]?[0-9.,]*[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*([^\W\d].*|\")")
+_OF_STEADY = re.compile(
+    "file|specimen number|trial|within record error of force|plateau (from|to|drift)|"
+    "peak of force|stick slip drop|(offset|tare) subtracted"
+)
+"""Columns of `wirecut steady` that say how a force was taken."""
 _SAMPLE = {"sample", "gel", "specimen", "material", "probe", "batch", "sample id", "charge"}
 
 
@@ -84,8 +122,8 @@ class Table:
         Number of columns.
     thickness : (float, str) or None
         That of the sample [m] and where it stands, above the header.
-    sample : int or None
-        Index of the column that names samples.
+    sample, count : int or None
+        Indices of the columns that name samples, and that count what a standard deviation is of.
     notes : list of str
         What is not used.
     """
@@ -96,7 +134,18 @@ class Table:
     width: int
     thickness: tuple[float, str] | None
     sample: int | None
+    count: int | None = None
     notes: list[str] = field(default_factory=list)
+
+
+def has_table(sheet: Sheet) -> bool:
+    """Whether a row or a column of a sheet names a wire."""
+    return any(
+        one[0][0] in ("wire_radius", "wire_diameter")
+        for row in sheet.rows[:200]
+        for cell in row.cells
+        if (one := meaning(split_unit(cell, _WORDS)[0], _WORDS)[0])
+    )
 
 
 def find_table(sheet: Sheet) -> tuple[Sheet, Table]:
@@ -119,21 +168,103 @@ def find_table(sheet: Sheet) -> tuple[Sheet, Table]:
         start = _header(sheet)
     header, body = sheet.rows[start], sheet.rows[start + 1 :]
     units = body.pop(0) if body and is_units_row(sheet, body[0]) else None
+    summary = [row for row in body if _sums_up(row)]
+    header, units, body = _tidied(header, units, [row for row in body if row not in summary])
     listed = headings(sheet, header, _WORDS, units)
     sample = next((one.number - 1 for one in listed if plain(one.name) in _SAMPLE), None)
     before = thickness_before(sheet, sheet.rows[:start])
     table = Table(header, _by_quantity(sheet, header, listed), body, len(listed), before, sample)
     table.notes.extend(sheet.notes)
-    unknown = [str(one) for one in listed if not one.quantity and one.number - 1 != sample]
-    unknown = [one for one in unknown if not one.endswith("()") or _filled(one, body)]
-    _check_columns(sheet, table, unknown)
-    if unknown:
-        table.notes.append(f"{sheet.file}: not used: {', '.join(unknown)}")
+    if summary:
+        lines = ", ".join(f"{row.line} ({next(filter(None, row.cells))})" for row in summary)
+        table.notes.append(f"{sheet.file}: sums up and not read: {sheet.line} {lines}")
+    table = replace(table, count=_count(table, listed))
+    besides = (table.sample, table.count)
+    unknown = [one for one in listed if not one.quantity and one.number - 1 not in besides]
+    names = [str(one) for one in unknown if one.name or _filled(one, body)]
+    _check_columns(sheet, table, names)
+    names = [one for one in names if not _is_of_steady(one)]
+    if names:
+        table.notes.append(f"{sheet.file}: not used: {', '.join(names)}")
     return sheet, table
 
 
-def _filled(heading: str, body: list[Row]) -> bool:
-    index = int(heading.split()[1]) - 1
+def _is_of_steady(column: str) -> bool:
+    name = plain(column.partition("(")[2].removesuffix(")"))
+    return any(_OF_STEADY.fullmatch(one) for one in (name, name.rpartition(" ")[0]))
+
+
+def _sums_up(row: Row) -> bool:
+    """Whether a row begins with a word such as Mean."""
+    first = next(filter(None, row.cells), "")
+    return _SUMMARY.fullmatch(plain(first)) is not None
+
+
+def _count(table: Table, listed: list[Heading]) -> int | None:
+    """Return the index of the column that tells how many cuts a standard deviation is of."""
+    stds = [one for kind in ("force_std", "total_std") for one in table.columns.get(kind, ())]
+    if not any(_DEVIATION.search(plain(one.name)) for one in stds):
+        return None
+    return next((one.number - 1 for one in listed if plain(one.name) in _COUNT), None)
+
+
+def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row | None, list[Row]]:
+    """Return a table whose cells hold a number alone: no unit with it, and no error behind it."""
+    names, below = list(header.cells), list(units.cells if units else [])
+    below += [""] * (len(names) - len(below))
+    rows = [list(row.cells) for row in body]
+    for column in range(len(names)):
+        errors = _errors_apart(rows, column)
+        unit = _unit_apart(rows, column, names[column])
+        below[column] = unit or below[column]
+        if errors and _is_force(names[column]):
+            text = split_unit(names[column], _WORDS)[1] or below[column]
+            names.append(f"± [{text}]")
+            below.append(text)
+            for row, error in zip(rows, errors, strict=True):
+                row += [""] * (len(names) - 1 - len(row)) + [error]
+    tidy = [Row(row.line, cells) for row, cells in zip(body, rows, strict=True)]
+    line = units.line if units else header.line
+    return Row(header.line, names), Row(line, below) if any(below) else None, tidy
+
+
+def _is_force(name: str) -> bool:
+    meanings, _ = meaning(split_unit(name, _WORDS)[0], _WORDS)
+    return any(quantity in ("force", "force_per_thickness") for quantity, _ in meanings)
+
+
+def _errors_apart(rows: list[list[str]], column: int) -> list[str]:
+    """Take what stands behind ± out of a column and return it; nothing where nothing does."""
+    matches = [_WITH_ERROR.fullmatch("".join(row[column : column + 1])) for row in rows]
+    for row, match in zip(rows, matches, strict=True):
+        if match:
+            tail = _WITH_UNIT.fullmatch(match[2])
+            row[column] = f"{match[1]} {tail[2]}" if tail else match[1]
+    if not any(matches):
+        return []
+    return [_WITH_UNIT.sub(r"\1", match[2]) if match else "" for match in matches]
+
+
+def _unit_apart(rows: list[list[str]], column: int, name: str) -> str:
+    """Take the unit out of the cells of a column where all have the same, and return it."""
+    cells = [row[column] for row in rows if len(row) > column and row[column]]
+    matches = [_WITH_UNIT.fullmatch(cell) for cell in cells]
+    units = {match[2].strip() if match else "" for match in matches}
+    if len(units) != 1 or "" in units:
+        return ""
+    (unit,) = units
+    stated = split_unit(name, _WORDS)[1]
+    known = any(kind.unit(unit) for kind in (LENGTH, FORCE, LINE_FORCE))
+    if not known or stated not in (None, unit):
+        return ""
+    for row in rows:
+        if len(row) > column:
+            row[column] = _WITH_UNIT.sub(r"\1", row[column])
+    return unit
+
+
+def _filled(heading: Heading, body: list[Row]) -> bool:
+    index = heading.number - 1
     return any(len(row.cells) > index and row.cells[index] for row in body)
 
 

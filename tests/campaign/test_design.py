@@ -1,13 +1,16 @@
 """Designs: what is read, what is refused, what the hash sees, and how tasks are made."""
 
 import json
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from designs import SMALL
 
-from fe_training.campaign.design import STRATEGIES, CampaignDesign, read_design
+from fe_training.campaign.design import BLUNT, STRATEGIES, CampaignDesign
+from fe_training.campaign.design_file import read_design
+from fe_training.fitting.fit import FEWEST_ALPHAS, FEWEST_POINTS
 from fe_training.solver.cut import Settings
 from surrogate.basics.files import model_file
 from surrogate.errors import InputError
@@ -25,7 +28,9 @@ def test_the_full_design_holds_what_the_paper_studies(full):
     for alpha in full.alpha:
         g = full.g(alpha)
         assert len(g) >= 40
-        assert (g[0], g[-1]) == (2.5e-3, 100.0)
+        top = 100.0 if alpha < 3 else 300.0 if alpha < 5 else 1000.0
+        assert (g[0], g[-1]) == (2.5e-3, top)
+        assert 100.0 in g
 
 
 def test_alpha_nodes_are_clustered_at_the_ends(full):
@@ -42,10 +47,11 @@ def test_g_nodes_are_densest_at_the_touch(full, alpha, touch):
     assert g[densest] == pytest.approx(touch, rel=0.3)
 
 
-def test_the_quick_design_is_a_small_one_of_the_same_exponents():
+def test_the_quick_design_is_just_large_enough_for_models():
     quick = read_design(model_file("campaign-quick.toml"))
-    assert quick.alpha == (2.0, 5.0, 9.0)
-    assert len(quick.configurations()) == 42
+    assert len(quick.alpha) == FEWEST_ALPHAS
+    assert FEWEST_POINTS < quick.points < 1.5 * FEWEST_POINTS
+    assert quick.path_from <= quick.lowest
 
 
 def test_the_hash_sees_numbers_not_formatting(small, tmp_path):
@@ -131,7 +137,7 @@ def test_tasks_are_paths_first_and_hold_every_configuration_once(full):
     assert sorted(one for task in tasks for one in task.configurations) == sorted(wanted)
     on_path = [task.configurations[0].target >= full.path_from for task in tasks]
     assert on_path == sorted(on_path, reverse=True)
-    assert sum(on_path) == len(full.alpha) * len(full.levels)
+    assert sum(on_path) == len(full.alpha) * len(full.names)
     for task in tasks:
         assert len({(one.alpha, one.level) for one in task.configurations}) == 1
         assert all(a.target < b.target for a, b in pairwise(task.configurations))
@@ -156,18 +162,28 @@ def test_every_strategy_is_finer_than_the_one_before():
 
 def test_the_full_design_is_the_one_that_was_run(full):
     """The store of the finished rows belongs to this hash: no field may be added to it."""
-    assert full.hash == "82564c89893a2fc4"
+    assert full.hash == "04a40f1961d03a11"
 
 
 def test_the_design_off_the_grid_is_what_its_comment_says():
     design = read_design(model_file("off-grid.toml"))
-    random = np.random.default_rng(20412)
+    random, others = (np.random.default_rng(seed) for seed in (20412, 20413))
     alpha = np.sort(random.uniform(2, 9, 12)).round(3)
     assert design.alpha == tuple(alpha)
+
+    def drawn(generator, low, high, count):
+        return np.sort(np.exp(generator.uniform(np.log(low), np.log(high), count))).tolist()
+
     for value in design.alpha:
-        g = np.exp(random.uniform(np.log(2.5e-3), np.log(100), 6))
-        assert design.g(value) == tuple(sorted(float(f"{each:.4g}") for each in g))
-    assert len({(one.alpha, one.target) for one in design.configurations()}) == 72
+        g = drawn(random, 2.5e-3, 100, 6)
+        top = 100 if value < 3 else 300 if value < 5 else 1000
+        if top > 100:
+            g += drawn(others, 100, top, 2)
+        g += [
+            top * share for share in ([1.3] if value < 3 else [1.4, 2.2] if value < 5 else [1.5, 3])
+        ]
+        assert design.g(value) == tuple(float(f"{each:.4g}") for each in g)
+    assert design.points == 117
 
 
 def test_the_design_off_the_grid_shares_meshes_but_no_point_with_the_campaign(full):
@@ -197,5 +213,46 @@ def test_listed_nodes_that_cannot_be_are_refused(tmp_path, nodes, message):
     file = tmp_path / "listed.toml"
     begin, end = SMALL.index("[g]"), SMALL.index("[levels.coarse]")
     file.write_text(f"{SMALL[:begin]}[g]\nnodes = {nodes}\n\n{SMALL[end:]}")
+    with pytest.raises(InputError, match=message):
+        read_design(file)
+
+
+def test_the_nodes_go_on_above_the_highest_where_the_design_says_so(full):
+    assert full.g(2.5) == full.g(2.5)[:44]
+    for alpha, top, more in ((3.12, 300.0, 4), (5.0, 1000.0, 8)):
+        beyond = full.g(alpha)[44:]
+        assert len(beyond) == more
+        assert beyond[-1] == top
+        steps = np.diff(np.log((100.0, *beyond)))
+        assert steps == pytest.approx(steps.mean(), rel=1e-2)
+
+
+def test_the_blunt_level_is_the_coarser_mesh_with_its_notch(full):
+    first = next(iter(full.levels.values()))
+    blunt = full.settings(BLUNT, 0)
+    assert blunt.notch_radius == full.blunt.notch_radius > first.notch_radius
+    assert replace(blunt, notch_radius=first.notch_radius) == first
+    for alpha in full.alpha:
+        solved = [c.target for c in full.configurations() if (c.level, c.alpha) == (BLUNT, alpha)]
+        lowest = full.blunt.share * full.denser.at(alpha)
+        assert solved == [g for g in full.g(alpha) if g >= lowest]
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("[g.beyond]\nalpha = [3]\nhighest = [3.9]\nper_decade = 8", "g.beyond.highest"),
+        (
+            "[g.beyond]\nalpha = [3]\nhighest = [30, 40]\nper_decade = 8",
+            "for each of g.beyond.alpha",
+        ),
+        ("[g.beyond]\nalpha = [3]\nhighest = [30]", "g.beyond.per_decade is missing"),
+        ("[blunt]\nnotch_radius = 2.0\nshare = 0.5", "blunt.notch_radius"),
+        ("[blunt]\nnotch_radius = 0.01\nshare = 0.5\nx = 1", "blunt.x is unknown"),
+    ],
+)
+def test_what_goes_beyond_is_checked(tmp_path, lines, message):
+    file = tmp_path / "bad.toml"
+    file.write_text(f"{SMALL}\n{lines}\n")
     with pytest.raises(InputError, match=message):
         read_design(file)

@@ -196,7 +196,7 @@ import os, signal, sys
 sys.path.insert(0, sys.argv[3])
 from fake_engine import run
 from fe_training.campaign.workers import Workers
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from surrogate.errors import WirecutError
 
 def die(*_):

@@ -10,7 +10,8 @@ from designs import SMALL
 from fake_engine import record, run
 
 from fe_training.campaign import store as storing
-from fe_training.campaign.design import Configuration, read_design
+from fe_training.campaign.design import Configuration
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import (
     DamagedRowError,
     Row,
@@ -122,7 +123,7 @@ def test_a_damaged_design_is_refused(small, tmp_path):
 
 HOLD = """
 import sys
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import Store
 with Store(sys.argv[2]).opened(read_design(sys.argv[1])):
     print("open", flush=True)

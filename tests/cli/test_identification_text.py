@@ -143,7 +143,7 @@ def test_what_has_no_profile_is_refused():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ("--toughness-max 0", "toughness_max must be"),
+        ("--toughness-max 0", "--toughness-max must be"),
         ("--toughness-max 1kPa", "not a toughness"),
         ("--toughness-prior 1J/m2", "expected 2 arguments"),
         ("--wear-strength 1kPa --wear-strength-prior 1kPa 1kPa", "must not both be given"),

@@ -92,7 +92,7 @@ def test_the_table_of_wires(folder, tmp_path, capsys):
         (["--out", "{folder}/a.csv", *NAME[2:]], "give --thickness"),
         ([*NAME, "--wires", "x.csv"], "give one of them"),
         (["--name", "{{diameter}}"], "unit of length"),
-        (["--columns", "a,b"], "name no displacement"),
+        (["--columns", "a,b"], "name no force, or neither"),
     ],
 )
 def test_refused_before_anything_is_written(folder, options, reason, capsys):

@@ -1,5 +1,6 @@
 """The command: every step once, what is refused, and whether solved rows come out again."""
 
+import json
 import os
 import re
 import shlex
@@ -18,14 +19,16 @@ from fe_training.campaign import check as checking
 from fe_training.campaign import run as running
 from fe_training.campaign.check import check_rows
 from fe_training.campaign.dataset import load_campaign, write_campaign
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import Store
 from fe_training.campaign.workers import Workers
 from fe_training.regenerate import main
 from fe_training.solver.record import Outcome, Record
 from surrogate.basics.files import model_file
+from surrogate.cli.main import main as wirecut
 
 ROOT = Path(__file__).resolve().parents[2]
+NO_MODEL = 4
 
 #: Two configurations on one path; meshes as coarse as the engine endures.
 TINY = """\
@@ -82,7 +85,7 @@ def test_quick_takes_every_step_with_the_real_engine(tmp_path, at, capsys, monke
     tiny = tmp_path / "tiny.toml"
     tiny.write_text(TINY)
     monkeypatch.setattr(regenerate, "model_file", lambda name: tiny)
-    assert main(["--quick", *at]) == 0
+    assert main(["--quick", *at]) == NO_MODEL
     out = capsys.readouterr().out
     assert [line[:3] for line in out.splitlines() if "/4 " in line[:4]] == [
         "1/4", "2/4", "3/4", "4/4",
@@ -95,15 +98,17 @@ def test_quick_takes_every_step_with_the_real_engine(tmp_path, at, capsys, monke
 
 
 def test_the_chain_and_its_rerun(made_up, at, tmp_path, capsys):
-    assert main(at) == 0
+    assert main(at) == NO_MODEL
     out, err = capsys.readouterr()
     assert "24 of 24 configurations to solve" in out
     assert "24/24 rows 100%" in err
     assert "12 of 12 points" in out
-    assert re.search(r"(?s)3/4 fit\n.*\n    not made, as the models must be fitted to .*", out)
+    assert re.search(
+        r"(?s)3/4 fit\n.*\n    no model was made, as the models must be fitted to .*", out
+    )
     assert not (tmp_path / "models" / "surrogates.npz").exists()
     first = load_campaign(tmp_path / "models" / "campaign.h5")
-    assert main(at) == 0
+    assert main(at) == NO_MODEL
     out, _ = capsys.readouterr()
     assert "0 of 24 configurations to solve" in out
     again = load_campaign(tmp_path / "models" / "campaign.h5")
@@ -113,13 +118,13 @@ def test_the_chain_and_its_rerun(made_up, at, tmp_path, capsys):
 
 def test_quick_keeps_away_from_the_shipped_files(made_up, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(["--quick"]) == 0
+    assert main(["--quick"]) == NO_MODEL
     made = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("campaign.h5*")}
     assert made == {f"output/campaign-quick/models/campaign.h5{end}" for end in ("", ".sha256")}
 
 
 def test_only_a_part(made_up, at, capsys):
-    assert main([*at, "--only", "alpha=5", "--only", "level=coarse"]) == 0
+    assert main([*at, "--only", "alpha=5", "--only", "level=coarse"]) == NO_MODEL
     assert "6 of 6 configurations to solve" in capsys.readouterr().out
     assert main([*at, "--only", "alpha=2", "--only", "alpha=5", "--dry-run"]) == 0
     assert "18 configurations to solve, 6 finished" in capsys.readouterr().out
@@ -138,7 +143,7 @@ def test_dry_run_solves_and_writes_nothing(made_up, at, tmp_path, capsys):
 def test_the_data_set_of_a_part_without_solving(made_up, at, tmp_path, capsys):
     main([*at, "--only", "alpha=5"])
     capsys.readouterr()
-    assert main([*at, "--no-solve"]) == 0
+    assert main([*at, "--no-solve"]) == NO_MODEL
     out = capsys.readouterr().out
     assert "1/4" not in out
     assert "12 rows" in out
@@ -185,7 +190,7 @@ def test_another_design_is_refused_unless_adopted(made_up, at, tmp_path, capsys)
     capsys.readouterr()
     assert main([*at, "--design", str(other)]) == 2
     assert "--adopt" in capsys.readouterr().err
-    assert main([*at, "--design", str(other), "--adopt"]) == 0
+    assert main([*at, "--design", str(other), "--adopt"]) == NO_MODEL
     assert "12 of 36 configurations to solve" in capsys.readouterr().out
 
 
@@ -227,7 +232,7 @@ def test_help_teaches_with_examples_that_the_parser_takes(program):
     command = [sys.executable, *program, "--help"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     examples = re.findall(r"^  regen-surrogate (.*)$", done.stdout, re.MULTILINE)
-    assert len(examples) == 10
+    assert len(examples) == 11
     for example in examples:
         regenerate._parser().parse_args(shlex.split(example))
 
@@ -284,14 +289,22 @@ def test_the_real_engine_gives_the_same_bits_after_a_kill(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_quick_design_gives_points_of_every_kind(tmp_path, capsys):
+def test_the_quick_campaign_makes_models_that_give_forces(tmp_path, capsys):
     options = ["--store", str(tmp_path / "store"), "--out", str(tmp_path)]
-    assert main(["--quick", "--jobs", "2", *options]) == 0
+    assert main(["--quick", *options]) == 0
     points = load_campaign(tmp_path / "campaign.h5").points
-    assert len(points) == 21
-    assert points["use"].sum() >= 12
-    assert {2.0, 5.0, 9.0} == set(points["alpha"][points["use"]])
-    assert points["g"][points["use"]].min() < 0.3 < 1.0 < points["g"][points["use"]].max()
+    assert points["use"].sum() >= 30
+    command = ["force", "--shear-modulus", "1kPa", "--toughness", "1J/m2", "--wire-radius", "1mm"]
+    command += ["--wear-strength", "1kPa", "--model", "table", "--json"]
+    capsys.readouterr()
+    forces = []
+    for models in ([], ["--models", str(tmp_path)]):
+        assert wirecut([*command, *models]) == 0
+        forces.append(
+            json.loads(capsys.readouterr().out)["wires"][0]["force_per_thickness_N_per_m"]
+        )
+    assert forces[0] != forces[1]
+    assert forces[1] == pytest.approx(forces[0], rel=0.02)
 
 
 REPORT = [sys.executable, "-W", "error", "scripts/report-campaign"]
@@ -343,12 +356,44 @@ def test_the_shipped_readme_has_the_marks():
     assert text.count("<!-- campaign report: end -->") == 1
 
 
+def test_extending_and_restricting_need_one_command(made_up, at, tmp_path, capsys):
+    main(at)
+    shipped = str(tmp_path / "models" / "campaign.h5")
+    for alpha, taken, left in (("[2, 5, 12]", 24, 12), ("[5]", 12, 0)):
+        mine = tmp_path / f"mine-{taken}.toml"
+        mine.write_text(made_up.read_text().replace("alpha = [2, 5]", f"alpha = {alpha}", 1))
+        there = [
+            "--store",
+            str(tmp_path / f"store-{taken}"),
+            "--out",
+            str(tmp_path / f"out-{taken}"),
+        ]
+        capsys.readouterr()
+        assert main(["--design", str(mine), "--continue-from", shipped, *there]) == NO_MODEL
+        out = capsys.readouterr().out
+        assert f"{taken} rows taken from {shipped}" in out
+        assert f"{left} of {taken + left} configurations to solve" in out
+
+
+def test_rows_of_other_meshes_are_refused_and_nothing_is_left_behind(made_up, at, tmp_path, capsys):
+    main(at)
+    mine = tmp_path / "mine.toml"
+    mine.write_text(made_up.read_text().replace("sectors = 12", "sectors = 10", 1))
+    there = ["--store", str(tmp_path / "other"), "--out", str(tmp_path / "other-models")]
+    capsys.readouterr()
+    shipped = str(tmp_path / "models" / "campaign.h5")
+    assert main(["--design", str(mine), "--continue-from", shipped, *there]) == 2
+    assert "the mesh of the level 'coarse' differs" in capsys.readouterr().err
+    assert not (tmp_path / "other").exists()
+    assert not (tmp_path / "other-models").exists()
+
+
 def test_going_on_from_a_data_set_whose_store_is_gone(made_up, at, tmp_path, capsys):
     main([*at, "--only", "alpha=5"])
     capsys.readouterr()
     elsewhere = ["--store", str(tmp_path / "new"), "--out", str(tmp_path / "new-models")]
     half = str(tmp_path / "models" / "campaign.h5")
-    assert main([*elsewhere, "--continue-from", half]) == 0
+    assert main([*elsewhere, "--continue-from", half]) == NO_MODEL
     out = capsys.readouterr().out
     assert f"12 rows taken from {half}" in out
     assert "12 of 24 configurations to solve" in out

@@ -1,5 +1,6 @@
 """The file of fitted models: what is refused, and that nothing is lost in it."""
 
+import dataclasses
 import io
 import json
 import shutil
@@ -10,8 +11,10 @@ import pytest
 
 import surrogate
 import surrogate.contact.shipped
+from fe_training.validation.surrogates import LARGEST_FILE
 from surrogate import InputError, contact_functions, cutting_force
 from surrogate.basics.files import checksum_line
+from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.shipped import (
     FILE,
     SCHEMA,
@@ -47,12 +50,12 @@ def test_what_is_written_is_read(file):
     told, arrays = read_fitted(file)
     assert told["schema"] == SCHEMA
     assert told["origin"] == "made up"
-    assert told["domain"] == {"g": [5e-3, 60.0], "alpha": [2.0, 9.0]}
+    assert told["domain"] == {"g": [5e-3, 60.0], "alpha": [2.0, 9.0], "highest": []}
     assert "R_w = 1" in told["units"]
     assert set(told["bounds"]["errors"]) == {"eq13", "power-law", "table", "gp"}
     again = content_of(*to_file(fitted_from(told, arrays)))
     assert again == file.read_bytes()
-    assert len(again) < 100_000
+    assert len(again) < LARGEST_FILE
 
 
 def test_arrays_cannot_be_written_to(file):
@@ -88,7 +91,7 @@ def test_a_file_without_its_checksum_is_refused(file):
 @pytest.mark.parametrize(
     ("schema", "remedy"),
     [
-        ("wirecut-surrogates-2", "upgrade wirecut"),
+        ("wirecut-surrogates-3", "upgrade wirecut"),
         ("wirecut-surrogates-10", "upgrade wirecut"),
         ("wirecut-surrogates-0", "regen-surrogate"),
         ("wirecut-campaign-data-1", "regen-surrogate"),
@@ -162,3 +165,84 @@ def test_without_a_file_it_is_said_what_to_do(monkeypatch, tmp_path):
     with pytest.raises(InputError, match="not shipped with this version"):
         cutting_force(surrogate.Scene(685.0, 1.6, 1e-4, 0.1), "auto")
     assert contact_functions(1.0, 2.0, model="eq13").arc == 2.0
+
+
+def test_models_of_ones_own_are_used_everywhere_until_they_are_given_back(file, capsys):
+    surrogate.load_models()
+    before = contact_functions(1.0, 3.0).normal_load
+    try:
+        told = {info.name: info for info in surrogate.load_models(file.parent)}
+        assert told["table"].domain == "g from 0.005 to 60, alpha from 2 to 9"
+        own = contact_functions(1.0, 3.0)
+        assert own.normal_load != before
+        assert own.normal_load == surrogate.contact.shipped.read(str(file)).models[
+            "table"
+        ].normal_load(1.0, 3.0)
+        with pytest.raises(InputError, match="cannot be"):
+            surrogate.load_models(file.with_name("none.npz"))
+        assert contact_functions(1.0, 3.0).normal_load == own.normal_load
+    finally:
+        surrogate.load_models()
+    assert contact_functions(1.0, 3.0).normal_load == before
+
+
+def test_the_environment_names_models_too(file, monkeypatch):
+    before = contact_functions(1.0, 3.0).normal_load
+    monkeypatch.setenv("WIRECUT_MODELS", str(file))
+    assert contact_functions(1.0, 3.0).normal_load != before
+
+
+class Doubled(type(FORCE_MODELS["eq13"])):
+    """A model of one's own: twice the arc of Eq. (13)."""
+
+    def arc(self, g, alpha):
+        return 2.0 * super().arc(g, alpha)
+
+    def terms(self, mu, gamma, radius, xi, wear, alpha):
+        friction, worn = super().terms(mu, gamma, radius, xi, wear, alpha)
+        return friction, 2.0 * worn
+
+
+def test_a_model_of_ones_own_is_taken_where_a_name_is():
+    eq13 = FORCE_MODELS["eq13"]
+    own = Doubled(*(getattr(eq13, field.name) for field in dataclasses.fields(eq13)))
+    scene = surrogate.Scene(685.0, 1.6, 0.5e-3, wear_strength=7750.0)
+    assert cutting_force(scene, model=own).wear == 2.0 * cutting_force(scene, model="eq13").wear
+    assert contact_functions(1.0, 2.0, model=own).arc == 4.0
+    assert surrogate.force_gradient(scene, model=own).model == "eq13"
+    with pytest.raises(surrogate.UnknownModelError, match="ForceModel of one's own"):
+        cutting_force(scene, model=object())
+
+
+def tampered(arrays, name, change):
+    values = np.array(arrays[name])
+    with np.errstate(all="ignore"):
+        changed = {
+            "emptied": values[:0],
+            "doubled": 2 * values,
+            "negated": -values,
+            "huge": values * values.dtype.type(1e300) if values.dtype.kind == "f" else values * 7,
+        }[change]
+    return {**arrays, name: changed}
+
+
+@pytest.mark.parametrize("change", ["emptied", "doubled", "negated", "huge"])
+def test_arrays_that_were_changed_are_refused_whatever_the_checksum_says(file, change):
+    content = file.read_bytes()
+    members = dict(np.load(io.BytesIO(content)))
+    told = members.pop("about")
+    for name in members:
+        buffer = io.BytesIO()
+        np.savez(buffer, about=told, **tampered(members, name, change))
+        rewrite(file, buffer.getvalue())
+        with pytest.raises(InputError, match=r"changed since|finite numbers|complete|decoded"):
+            fitted_from(*read_fitted(file))
+
+
+@pytest.mark.parametrize("name", ["table", "power-law"])
+def test_other_answers_than_the_stored_ones_are_refused(file, name):
+    told, arrays = read_fitted(file)
+    told["answers"][name][0][1] *= 1.0 + 1e-6
+    rewrite(file, content_of(told, arrays))
+    with pytest.raises(InputError, match=f"other answers of '{name}'"):
+        fitted_from(*read_fitted(file))

@@ -35,7 +35,7 @@ def test_the_wedge_solves_its_equation():
 def test_the_wedge_at_the_ends_of_the_numbers():
     assert wedge_load(-math.inf) == 0.0
     at_zero = wedge_functions(-math.inf, 0.0)
-    assert list(at_zero.values()) == [0.0, 0.0, math.inf]
+    assert list(at_zero.values()) == [0.0, 0.0, math.inf, 0.0, 0.0]
     for log_g in LOG_G:
         alone = wedge_functions(float(log_g), wedge_load(float(log_g)))
         together = wedge_functions(LOG_G, wedge_load(LOG_G))
@@ -215,9 +215,7 @@ def test_leaving_out_is_what_fitting_without_gives(process):
 def test_the_formula_has_twelve_constants_and_the_limits_it_claims(installed):
     model = installed.models["power-law"]
     assert sum(len(model.constants[name]) for name in ("arc", "normal_load")) == 12
-    wide = BlendModel(
-        Domain((1e-12, 1e9), (2.0, 9.0), installed.limits.touch, (1.0,)), model.constants
-    )
+    wide = BlendModel(Domain((1e-12, 1e9), (2.0, 9.0), installed.limits.touch, {}), model.constants)
     wedge = wedge_functions(np.log(1e-12), wedge_load(np.log(1e-12)))
     assert wide.normal_load(1e-12, 3.0) == pytest.approx(wedge["normal_load"], rel=1e-3)
     k = np.sqrt(1.0 + 5.0 * model.constants["arc"][0])  # alpha = 3

@@ -279,7 +279,7 @@ def test_what_cannot_be_drawn_is_refused():
     huge = regime_map("R_w", "Gamma_o", ((1, 9), (1e-3, 1e300)), {"mu": 1, "tau_w": 1}, nodes=5)
     with pytest.raises(InputError, match=r"toughness goes from 0\.001 to 1e\+300 J/m\^2; narrow"):
         draw(huge)
-    thick = MapPoints(Scene(685.0, 1.6, 0.02), "rope")
+    thick = MapPoints(Scene(685.0, 1.6, 0.02, 0.0, 7750.0), "rope")
     with pytest.raises(InputError, match=r"rope must be on the map, but wire_radius = 0\.02 m"):
         draw(made, [thick])
     with pytest.raises(InputError, match="std must name quantities"):

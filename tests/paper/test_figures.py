@@ -14,7 +14,7 @@ import pytest
 from fake_engine import run
 
 from fe_training.campaign.dataset import load_campaign, write_campaign
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.paper.curve import Curve
 from fe_training.paper.figures import (
     RATIOS,

@@ -218,12 +218,15 @@ def test_quantity_with_unit(text, dimension, expected):
     assert parse_quantity(text, dimension) == expected
 
 
-@pytest.mark.parametrize(
-    "text", ["", "mm", "0,2mm", "0.2 ell", "0.2mm2", "0.2 mm mm", "1e9999999m"]
-)
+@pytest.mark.parametrize("text", ["", "0,2mm", "0.2 ell", "0.2mm2", "0.2 mm mm", "1e9999999m"])
 def test_quantity_refused(text):
     with pytest.raises(InputError, match="one of m, cm, mm, um"):
         parse_quantity(text, LENGTH)
+
+
+def test_a_unit_alone_is_answered_with_its_number():
+    with pytest.raises(InputError, match=r"'mm' is a unit without its number; .* such as 1\.5mm"):
+        parse_quantity("mm", LENGTH)
 
 
 def test_number_takes_no_unit():

@@ -123,7 +123,58 @@ def blanks():
     return ["# made by hand", "Position(mm)   Load(N)", *table([TRAVEL, FORCE], "   ")]
 
 
+def bluehill_french():
+    return [
+        "Tableau de résultats 1",
+        ";Charge maximale;Epaisseur",
+        ";(N);(mm)",
+        "1;0,202;20,00",
+        "Temps;Extension en compression;Charge de compression",
+        "(s);(mm);(N)",
+        *table([TIME, TRAVEL, FORCE], ";", ",", '"'),
+    ]
+
+
+def over_time():
+    return [
+        "Approach speed,5,mm/s",
+        "Test speed,30,mm/min",
+        "Time (s),Load (N)",
+        *table([TIME, FORCE]),
+    ]
+
+
+def over_a_german_time():
+    return [
+        "Prüfgeschwindigkeit;0,5;mm/s",
+        "Zeit [s];Kraft [N]",
+        *table([TIME, FORCE], ";", ","),
+    ]
+
+
+def two_specimens_with_thickness():
+    """Two records below a table of results that has a column of the thickness."""
+    table_of_results = [
+        '"Results Table 1"',
+        '"","Specimen label","Thickness","Maximum Load"',
+        '"","","(mm)","(N)"',
+        '"1","a","20.0","0.2"',
+        '"2","b","10.0","0.4"',
+        '"Mean","","15.0","0.3"',
+    ]
+    return table_of_results + bluehill_english(specimens=2)[4:]
+
+
+NOT_IN_CP1252 = [
+    (["時間,ストローク,試験力", "sec,mm,N"], "cp932", "Shift-JIS"),
+    (["试验日期,2026", "时间(s),位移(mm),力(N)"], "gb18030", "GB18030"),
+    (["Czas [s],Przemieszczenie [mm],Siła [N]"], "cp1250", "CP1250"),
+]
+
 EXPORTS = [
+    bluehill_french,
+    over_time,
+    over_a_german_time,
     bluehill_english,
     bluehill_german,
     zwick,
@@ -161,6 +212,56 @@ def test_every_export_in_every_encoding(write, export, encoding):
     same(record)
     assert f"{N} rows from line" in record.understood
     assert "\n" not in record.understood
+
+
+@pytest.mark.parametrize(("header", "encoding", "name"), NOT_IN_CP1252)
+def test_encodings_told_by_a_word(write, header, encoding, name):
+    record = read_record(write([*header, *table([TIME, TRAVEL, FORCE])], encoding))
+    same(record)
+    assert f"; {name}, commas" in record.understood
+
+
+def test_thickness_of_each_specimen_from_the_results(write):
+    records = read_records(write(two_specimens_with_thickness()))
+    assert [one.thickness for one in records] == [0.02, 0.01]
+    assert "thickness 10 mm (line 5)" in records[1].understood
+    assert read_record(write(bluehill_french())).thickness == 0.02
+    unknown = [line.replace("(mm)", "(px)", 1) for line in two_specimens_with_thickness()[:6]]
+    with pytest.raises(InputError, match="a thickness in no unit of length"):
+        read_records(write([*unknown, *plain_columns()]))
+
+
+def test_travel_from_time_and_speed(write):
+    record = read_record(write(over_time()))
+    assert "displacement from time at 0.5 mm/s (line 2)" in record.understood
+    same(read_record(write(over_time()[2:]), speed=5e-4))
+    clock = ["Time (s),Load (N),Heat (C)", *(f"10:00:{i:02d},{0.1 * i:.1f},20" for i in range(N))]
+    for lines, options, reason in (
+        (over_time()[2:], {}, "give the speed of the cut with --speed"),
+        (["Speed,1,mm/s", *over_time()], {}, "two speeds (1 mm/s in line 1, 0.5 mm/s in line 3)"),
+        (clock, {"speed": 1e-3}, "the time is no plain number of seconds"),
+        (over_time(), {"speed": 0.0}, "speed must be"),
+    ):
+        with pytest.raises(InputError) as caught:
+            read_record(write(lines), **options)
+        assert reason in str(caught.value)
+
+
+def test_records_on_several_sheets(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    book.active.append(("Probendicke", 20, "mm"))
+    for factor in (1, 2):
+        sheet = book.create_sheet(f"Probe {factor}")
+        for row in (("Standardweg", "Standardkraft"), ("mm", "N")):
+            sheet.append(row)
+        for row in zip(TRAVEL, scaled(FORCE, factor), strict=True):
+            sheet.append(row)
+    book.save(tmp_path / "zwick.xlsx")
+    for factor, record in enumerate(read_records(tmp_path / "zwick.xlsx"), start=1):
+        same(record, factor)
+        assert (record.thickness, record.specimen) == (0.02, factor)
+        assert f"sheet 'Probe {factor}'" in record.understood
 
 
 @pytest.mark.parametrize("export", [bluehill_german, zwick])
@@ -223,8 +324,8 @@ def test_columns_named_by_the_caller(write):
     rows = table([TIME, TRAVEL, FORCE])
     same(read_record(write(rows), columns="time_s,displacement_mm,force_N"))
     two = ["Extension (mm),Load 1 cell (N),Extension gauge (mm),Load (N)", *rows]
-    with pytest.raises(InputError, match="name no displacement or no force"):
-        read_record(write(two), columns="time_s,-,force_N")
+    with pytest.raises(InputError, match="name no force, or neither a disp"):
+        read_record(write(two), columns="time_s,-,-")
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from itertools import islice
 
 import numpy as np
 
-from surrogate.errors import WirecutError
+from surrogate.errors import ImplausibleInputWarning, WirecutError
 
 from .cases import cases
 from .exact import close
@@ -63,6 +63,7 @@ def attempt(call, arguments):
     """Return result and None, or None and how the call ended instead."""
     with warnings.catch_warnings(record=True) as caught, _limited():
         warnings.simplefilter("always")
+        warnings.simplefilter("ignore", ImplausibleInputWarning)  # tortures are implausible
         try:
             result = call(**arguments)
         except WirecutError as error:

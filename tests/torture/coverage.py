@@ -106,7 +106,7 @@ def drawn(random, **fixed):
         "confidence": CONFIDENCE,
     }
     stated["shear_modulus_std"] = modulus_std * stated["shear_modulus"]
-    low, high = model.limits.g
+    low, high = model.ends(stated["stiffening_exponent"])
     outside = np.count_nonzero((g < low) | (g > high))
     kinds = {
         "wires": "all in range" if not outside else "none" if outside == g.size else "some",

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from fe_training.campaign.dataset import load_campaign, require_checksum
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import DamagedRowError, Row, decode_row, encode_row
 from fe_training.paper.specimen import read_results
 from surrogate import read_material, read_measurements

@@ -16,7 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
-from fe_training.campaign.design import read_design
+from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import DamagedRowError, decode_row, encode_row
 from surrogate.basics.files import model_file
 from surrogate.errors import WirecutError

@@ -146,7 +146,7 @@ def _seams(part, name, model):
     if name not in FORCE_MODELS:
         seams |= {
             "lowest g": np.full(9, model.limits.g[0]),
-            "highest g": np.full(9, model.limits.g[1]),
+            "highest g": np.broadcast_to(model.highest_g(alphas), alphas.shape),
         }
     for seam, at in seams.items():
         for alpha, g in zip(alphas.tolist(), np.asarray(at).tolist(), strict=True):
@@ -196,6 +196,7 @@ def _compiled(part, name, model):
     random = np.random.default_rng(3)
     g = np.exp(random.uniform(np.log(model.limits.g[0]), np.log(model.limits.g[1]), 20_000))
     alpha = random.uniform(*model.limits.alpha, g.size)
+    g = np.minimum(g, model.highest_g(alpha))
     compiled = _evaluated(part, "numba", model, g, alpha)
     loaded = sys.modules.pop("numba")
     try:

@@ -73,17 +73,20 @@ OWN = {
     },
     "read_record": {
         "path": str(RECORD),
-        **dict.fromkeys(("specimen", "columns", "sign", "decimal", "delimiter", "encoding")),
+        **dict.fromkeys(
+            ("specimen", "columns", "sign", "speed", "decimal", "delimiter", "encoding")
+        ),
     },
     "read_records": {
         "path": str(RECORD),
-        **dict.fromkeys(("columns", "sign", "decimal", "delimiter", "encoding")),
+        **dict.fromkeys(("columns", "sign", "speed", "decimal", "delimiter", "encoding")),
     },
     "steady_force": {
         **{"displacement": TRAVEL, "force": PULL, "start": None, "end": None},
         **{"tare": 0.0, "tolerance": 0.05},
     },
     "read_material": {"path": str(model_file("paam-material.json"))},
+    "load_models": {"path": None},
     "contact_functions": {"rtol": None},
     "plot_identification": {"ax": None, "pure_shear_toughness": None},
     "plot_regime_map": {"ax": None, "points": (), "error_of": None, "limits": ()},

@@ -154,7 +154,7 @@ def test_names_of_shipped_files_never_leave_their_folder(name):
 
 def test_names_in_designs_never_leave_the_store(tmp_path):
     pytest.importorskip("joblib", reason="the extra 'train' is not installed")
-    from fe_training.campaign.design import read_design
+    from fe_training.campaign.design_file import read_design
     from surrogate.basics.files import model_file
     from surrogate.errors import InputError
 
