@@ -120,17 +120,16 @@ def left_out_errors(
 ) -> dict[str, Floats]:
     """Return |ln(predicted/computed)| of A, B and delta at each point left out.
 
-    The larger one of leaving out the point and of leaving out its alpha; the first and last alpha
-    are not left out, which would be extrapolation.
+    The larger one of leaving out the point and of leaving out its alpha; an alpha is not left out
+    where no smaller or no larger one reaches as far in g, which would be extrapolation.
     """
-    found = {}
+    found, between = {}, _between_others(points)
     for name, process in processes.items():
         rows = rows_of(process, points)
         alone = np.abs(leave_out_errors(process, np.arange(len(rows)))[0])
         alpha = points.alpha[rows]
         group = np.abs(leave_out_errors(process, alpha)[0])
-        ends = (alpha == alpha.min()) | (alpha == alpha.max())
-        error = np.where(ends, alone, np.maximum(alone, group))
+        error = np.where(between[rows], np.maximum(alone, group), alone)
         if name == "distance":
             # delta - 1 errs by this factor; near the touch and beyond, which the process does not
             # have, delta is given within what is left of it
@@ -143,6 +142,17 @@ def left_out_errors(
             full[rows] = error
             found[name] = full
     return found
+
+
+def _between_others(points: FitPoints) -> NDArray[np.bool_]:
+    """Return which points have others of as high a g at a smaller and at a larger alpha."""
+    highest = {a: float(points.g[points.alpha == a].max()) for a in np.unique(points.alpha)}
+    between = [
+        any(a < alpha and top >= g for a, top in highest.items())
+        and any(a > alpha and top >= g for a, top in highest.items())
+        for alpha, g in zip(points.alpha.tolist(), points.g.tolist(), strict=True)
+    ]
+    return np.array(between)
 
 
 def _edges(wanted: tuple[float, ...], values: Floats) -> tuple[float, ...]:
