@@ -120,8 +120,9 @@ def left_out_errors(
 ) -> dict[str, Floats]:
     """Return |ln(predicted/computed)| of A, B and delta at each point left out.
 
-    The larger one of leaving out the point and of leaving out its alpha; an alpha is not left out
-    where no smaller or no larger one reaches as far in g, which would be extrapolation.
+    The larger one of leaving out the point and of leaving out its alpha, but neither where that
+    would be extrapolation: no alpha is left out where no smaller or no larger one reaches as far in
+    g, and no point at the lowest or the highest g of its alpha. At corners it is what the fit leaves.
     """
     found, between = {}, _between_others(points)
     for name, process in processes.items():
@@ -129,7 +130,10 @@ def left_out_errors(
         alone = np.abs(leave_out_errors(process, np.arange(len(rows)))[0])
         alpha = points.alpha[rows]
         group = np.abs(leave_out_errors(process, alpha)[0])
-        error = np.where(between[rows], np.maximum(alone, group), alone)
+        fit = np.abs(process.predict_mean(process.inputs) - process.values)
+        error = np.maximum(
+            np.where(_inside_g(points)[rows], alone, fit), np.where(between[rows], group, fit)
+        )
         if name == "distance":
             # delta - 1 errs by this factor; near the touch and beyond, which the process does not
             # have, delta is given within what is left of it
@@ -142,6 +146,15 @@ def left_out_errors(
             full[rows] = error
             found[name] = full
     return found
+
+
+def _inside_g(points: FitPoints) -> NDArray[np.bool_]:
+    """Return which points are not the first or the last of their alpha."""
+    inside = np.ones(len(points), bool)
+    for alpha in np.unique(points.alpha):
+        rows = np.flatnonzero(points.alpha == alpha)
+        inside[rows[[np.argmin(points.g[rows]), np.argmax(points.g[rows])]]] = False
+    return inside
 
 
 def _between_others(points: FitPoints) -> NDArray[np.bool_]:

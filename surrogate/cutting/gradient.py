@@ -70,7 +70,7 @@ class ForceGradient(Record):
 def force_gradient(
     scene: Scene,
     model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     extrapolate: bool = False,
     law: str = PROJECTED,
 ) -> ForceGradient:
@@ -95,8 +95,9 @@ def force_gradient(
     model : str, default "auto"
         As in `cutting_force`, but that "auto" is one model for all points: the cheapest whose A
         and B meet `rtol` all over its domain.
-    rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-]. It bounds the derivatives by xi
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where
+        a model is as exact, else that of the most exact one.
         and tau_w; of the slopes of A and B, which are in the others, no error is known.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.

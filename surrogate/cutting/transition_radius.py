@@ -59,7 +59,7 @@ __all__ = [
 
 
 def transition_radius(
-    scene: Scene, model: str | ForceModel = AUTO, rtol: float = 0.02, law: str = PROJECTED
+    scene: Scene, model: str | ForceModel = AUTO, rtol: float | None = None, law: str = PROJECTED
 ) -> FloatOrArray:
     """Return the radius at which the two parts of the force are equal, those of Eq. (13) or others.
 
@@ -76,8 +76,9 @@ def transition_radius(
     model : str, default "auto"
         As in `cutting_force`, but that "auto" is one model for all radii: the cheapest whose A
         and B meet `rtol` all over its domain.
-    rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-]; that of the radius, in which their
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where
+        a model is as exact, else that of the most exact one.
         slopes play a part, is not known.
     law : str, default "projected"
         Which functions of the contact wear and friction follow, as in `cutting_force`.

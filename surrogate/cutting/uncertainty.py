@@ -83,7 +83,7 @@ def propagate(
     scene: Scene,
     std: Mapping[str, ArrayLike],
     model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     extrapolate: bool = False,
     *,
     correlation: Correlations | None = None,
@@ -105,8 +105,9 @@ def propagate(
         [Pa, J/m^2, m or -]; what is left out is taken as exact. Arrays broadcast with the scene.
     model : str, default "auto"
         As in `force_gradient`.
-    rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-].
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where
+        a model is as exact, else that of the most exact one.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`; what error
         it has there is not known, and std is nan.
