@@ -189,7 +189,8 @@ def _named(model: object, box: Ranges, terms: list[str]) -> tuple[tuple[str, ...
     if not isinstance(chosen, ClosedForm):
         raise InputError(
             "model must be one that a force can be prepared by, but "
-            f"{chosen.name!r} is neither the table nor a closed form without a power; choose model='auto', 'table' or 'eq13'."
+            f"{chosen.name!r} is neither the table nor a closed form without a power; choose "
+            "model='auto', 'table' or 'eq13'."
         )
     error = force_error(known, box, dict.fromkeys(terms, FREE), functions) if known else math.nan
     return (), chosen, error if error < math.inf else math.nan
