@@ -1,7 +1,7 @@
 """Prepared forces on arrays of other libraries, by the Array API: in their library and device.
 
-Nothing but functions of the standard is called, so that what traces them (jax: grad, jit, vmap)
-works. Inside a trace values cannot be looked at: there `outside` must be "nan".
+Nothing but functions of the standard is called; it is tested with array-api-strict. Where a library
+traces a program, values cannot be looked at: there `outside` must be "nan".
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def _refuse(xp: Any, quantity: Any, value: Any, bad: Any) -> None:
         refused = bool(xp.any(bad))
     except Exception as error:  # every library has its own for values that are traced
         raise InputError(
-            "outside must be 'nan' where the values cannot be looked at, as inside jit and vmap "
+            "outside must be 'nan' where the values cannot be looked at, as in a traced program "
             f"({type(error).__name__}); give outside='nan'."
         ) from None
     if refused:
