@@ -122,7 +122,7 @@ def left_out_errors(
 
     The larger one of leaving out the point and of leaving out its alpha, but neither where that
     would be extrapolation: no alpha is left out where no smaller or no larger one reaches as far in
-    g, and no point at the lowest or the highest g of its alpha. At corners it is what the fit leaves.
+    g, and no point at the lowest or the highest g of its alpha. A corner has what the fit leaves.
     """
     found, between = {}, _between_others(points)
     for name, process in processes.items():
