@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from surrogate.identification.outlier import outlier
 from surrogate.identification.slips import slip_in_words
 from surrogate.inference.continuation import contact_error
 from surrogate.inference.line_fit import solve_least_squares
+from surrogate.inference.profile import smallest_misfit
 from surrogate.inference.quantiles import chi_squared_limit, exceeds_f, student_quantile
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import doubts
@@ -233,7 +235,7 @@ def _misfit(fit: Estimate) -> Iterator[str]:
     groups = np.unique(fit.wire_radius).size
     if scatter is not None and groups > 2 and scatter.pure_misfit > 0.0:
         pure = scatter.pure_misfit / scatter.dof
-        lack = max(total - scatter.pure_misfit, 0.0) / (groups - 2)
+        lack = max(_beside_shared(fit, total, pure) - scatter.pure_misfit, 0.0) / (groups - 2)
         if exceeds_f(lack / pure, (groups - 2, scatter.dof), FALSE_ALARM):
             acceptable = total if total <= 0 else pure * (fit.dof) * 2.0
             yield (
@@ -243,6 +245,13 @@ def _misfit(fit: Estimate) -> Iterator[str]:
             )
             return
     yield from _another_line(fit, total)
+
+
+def _beside_shared(fit: Estimate, total: float, variance: float) -> float:
+    """Return what is left of the misfit once errors that forces share have taken their part."""
+    if fit.profile is None or fit.scale is None:
+        return total
+    return smallest_misfit(replace(fit.misfit, scale=float(np.sqrt(variance))))[0]
 
 
 def _another_line(fit: Estimate, total: float) -> Iterator[str]:
