@@ -207,6 +207,7 @@ def tell_fixed(ax: Axes, made: MapRecord) -> None:
         va="top",
         fontsize=SMALL,
         color=GREY,
+        gid="fixed",
     )
 
 
