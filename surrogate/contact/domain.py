@@ -192,7 +192,7 @@ def _between(value: Any, ends: tuple[float, float]) -> bool:
 
 
 def _clamped(value: Any, low: float, high: float) -> Any:
-    if type(value) is float:
+    if type(value) is float and type(high) is float:
         return low if math.isnan(value) else min(max(value, low), high)
     return np.minimum(np.maximum(value, low), high)
 

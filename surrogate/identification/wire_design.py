@@ -129,7 +129,7 @@ def design_wires(
     force_std: float | None = None,
     relative_force_std: float | None = None,
     model: str | None = None,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     diameters: ArrayLike | None = None,
     thickness: float | None = None,
     goal: str = "both",
@@ -155,8 +155,9 @@ def design_wires(
         Scatter of one cut as a fraction of its force [-].
     model : str, optional
         Any force model that has wear; that of the earlier result, or "auto".
-    rtol : float, default 0.02
-        Relative error of A and B that will do with "auto" [-].
+    rtol : float, optional
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where a model is as
+        exact, else that of the most exact one.
     diameters : array_like, optional
         Sizes to choose from [m]; those commonly sold, 20 um to 2 mm, by default.
     thickness : float, optional
@@ -232,7 +233,7 @@ def _wires(materials: Materials, model: str | ForceModel, radii: Array) -> Itera
 
 
 def _materials(
-    expected: Scene | Identification, model: str | ForceModel | None, rtol: float
+    expected: Scene | Identification, model: str | ForceModel | None, rtol: float | None
 ) -> tuple[Materials, str | ForceModel]:
     """Return what is expected and the name of the model."""
     if isinstance(expected, Identification):

@@ -214,7 +214,7 @@ class Plan:
             wanted = [names[term] for term in self.of_table]
             row = log(alpha)
             if isinstance(log_g, np.ndarray) or isinstance(row, np.ndarray):
-                log_g, row = np.broadcast_arrays(log_g, row)
+                log_g, row = (np.array(each) for each in np.broadcast_arrays(log_g, row))
             _, values = self.table.table.at(wanted, log_g, row)
             found = dict(zip(self.of_table, values, strict=True))
         elif isinstance(log_g, np.ndarray):

@@ -223,7 +223,10 @@ def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row |
             below.append(text)
             for row, error in zip(rows, errors, strict=True):
                 row += [""] * (len(names) - 1 - len(row)) + [error]
-    tidy = [Row(row.line, cells) for row, cells in zip(body, rows, strict=True)]
+    tidy = [  # a row that was tidy is kept, which large tables are full of
+        row if row.cells == cells else Row(row.line, cells)
+        for row, cells in zip(body, rows, strict=True)
+    ]
     line = units.line if units else header.line
     return Row(header.line, names), Row(line, below) if any(below) else None, tidy
 

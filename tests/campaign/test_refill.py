@@ -59,8 +59,20 @@ def test_only_what_a_store_lacks_is_put_in(small, rows, campaign, tmp_path, row_
     assert found.items() >= mine.items()
 
 
-def test_a_data_set_of_another_design_is_refused(small, campaign, tmp_path):
-    other = replace(small, count=5)
+def test_a_data_set_on_other_meshes_is_refused(small, campaign, tmp_path):
+    (name, coarse), *others = small.levels.items()
+    finer = replace(coarse, sectors=coarse.sectors + 1)
+    other = replace(small, levels={name: finer, **dict(others)})
     store = Store(tmp_path / "new")
-    with store.opened(other), pytest.raises(InputError, match=small.hash):
+    with store.opened(other), pytest.raises(InputError, match=f"the mesh of the level '{name}'"):
         refill(store, other, campaign)
+
+
+def test_of_a_data_set_of_another_design_the_common_rows_are_taken(small, campaign, tmp_path):
+    other = replace(small, alpha=small.alpha[:1])
+    store = Store(tmp_path / "new")
+    with store.opened(other):
+        assert refill(store, other, campaign) == len(other.configurations())
+        assert {row.configuration.alpha for row in store.rows(other.configurations())} == {
+            small.alpha[0]
+        }

@@ -16,6 +16,7 @@ import numpy as np
 from fe_training.campaign.dataset import load_campaign, require_checksum
 from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import DamagedRowError, Row, decode_row, encode_row
+from fe_training.coupled.design import read_design as read_coupled
 from fe_training.paper.specimen import read_results
 from surrogate import read_material, read_measurements
 from surrogate.basics.files import models_folder
@@ -99,7 +100,7 @@ def _reader(path):
     readers = {
         ".h5": load_campaign,
         ".npz": lambda file: fitted_from(*read_fitted(file)),
-        ".toml": read_design,
+        ".toml": read_coupled if path.name == "coupled.toml" else read_design,
         ".csv": read_measurements,
     }
     if path.name.endswith("material.json"):

@@ -43,6 +43,7 @@ BASE = {
     "threshold": 2.0 / 3.0,
     "rtol": 0.02,
     "extrapolate": False,
+    "law": "projected",
     "std": {"toughness": 0.2, "wear_strength": 500.0},
     "correlation": {("toughness", "wear_strength"): -0.5},
     "x": "wire_radius",
