@@ -50,7 +50,7 @@ def of_law(model: Any, law: object) -> Any:
     >>> of_law("eq13", "projected")
     'eq13'
     """
-    if law not in LAWS or not isinstance(law, str):
+    if not isinstance(law, str) or law not in LAWS:
         raise InputError(f"law must be one of {', '.join(LAWS)}, but is {shown(law)}; choose one.")
     if law == PROJECTED:
         return model

@@ -55,6 +55,7 @@ def add_design_options(command: argparse.ArgumentParser) -> None:
         )
     add_friction_and_stiffening(command, friction=None, stiffening=None)
     add_model_option(command)
+    command.set_defaults(rtol=None)
     add("--cuts", type=whole_number, default=8, metavar="N", help="cuts in all (default 8)")
     add("--force-std", type=quantity(LINE_FORCE), metavar="STD", help="scatter of one cut in N/m")
     add("--relative-error", type=share, metavar="SHARE", help="or as a share of its force: 5%%")

@@ -122,7 +122,7 @@ def _cases_of(name, function):
     parameters = list(inspect.signature(function).parameters)
     arguments = _sound(name, parameters)
     models = model_names() if "model" in parameters else (None,)
-    if name in DRAWN and "model" in parameters:
+    if name in (*DRAWN, "design_wires") and "model" in parameters:
         models = ("eq13",)  # drawing is slow, and the other models are tortured without it
     for model in models:
         if model == "auto" and name not in AUTOMATIC:
@@ -148,7 +148,7 @@ def _case(name, function, parameters, arguments, model):
     fitted = model in (*FITTED_NAMES, "auto")
     aliases = (*ALIASES.get(name, ()), *(("g", "alpha") if fitted else ()))
     searches = name == "transition_radius" and fitted
-    slow = searches or name in ("identify", "regime_map", *DRAWN)
+    slow = searches or name in ("identify", "design_wires", "regime_map", *DRAWN)
     if name == "identify" and model in ("high-toughness", "eq9"):
         return None  # without wear there is nothing to identify
     if "scene" in parameters:

@@ -68,6 +68,10 @@ OWN = {
         **{"shear_modulus_std": 30.0, "friction_std": 0.02, "stiffening_std": 0.1},
     },
     "design_radii": {"force_std": 0.5, "relative_force_std": None, "expected": None},
+    "design_wires": {
+        **{"expected": Scene(**SCENE), "cuts": 8, "force_std": None, "relative_force_std": 0.05},
+        **{"rtol": None, "diameters": None, "thickness": None, "goal": "both"},
+    },
     "read_measurements": {
         "path": str(model_file("paam-wire-cutting.csv")),
         **dict.fromkeys(("thickness", "decimal", "delimiter", "encoding")),
@@ -131,6 +135,7 @@ ARRAYS = {
 ALIASES = {
     "identify": ("radii", "forces", "wire", "standard errors", "measurements", "prior"),
     "design_radii": ("radius", "scatter", "range", "cuts", "weight"),
+    "design_wires": ("wire_diameter", "expected", "toughness", "exactly one", "carry", "wires"),
     "regime_map": ("coordinate", "range", "axis", "scale", "fixed", "map", "node", "limit"),
     "propagate": ("uncertain quantities", "correlations", "standard error", "dimensionless"),
     "read_measurements": ("file",),
