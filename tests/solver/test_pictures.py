@@ -16,7 +16,7 @@ from fe_training.solver.pictures import (
 )
 from fe_training.solver.record import Outcome, Record
 from fe_training.solver.solve import indentation_cut
-from surrogate.basics.figures import SINGLE_COLUMN
+from surrogate.basics.figures import WIDTHS
 from surrogate.errors import InputError, WirecutError
 
 
@@ -179,7 +179,7 @@ def test_new_figures_fit_a_column_and_nothing_overlaps(kind, cut, state, record)
         figure = made.figure
         try:
             assert dict(matplotlib.rcParams) == before
-            assert figure.get_figwidth() == pytest.approx(SINGLE_COLUMN[0])
+            assert 25.4 * figure.get_figwidth() == pytest.approx(25.4 * WIDTHS["single"])
             found = boxes(figure)
             assert len(found) > 5
             width, height = figure.canvas.get_width_height()
