@@ -83,7 +83,8 @@ def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, A
     Returns
     -------
     float or ndarray
-        The bound [-], nan outside the domain.
+        The bound [-]; nan outside the domain, and under "slip" where the tip touches the wire and
+        the slip there depends on how sharp it is.
     """
     from surrogate.choosing.accuracy import contact_bounds
 
@@ -93,5 +94,7 @@ def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, A
         cleavage, friction, wear = parts
         off = np.where(friction == 0.0, 0.0, friction * bounds[1])
         off = off + np.where(wear == 0.0, 0.0, wear * bounds[0])
-        bound = np.where(np.isfinite(off), off / (cleavage + friction + wear), np.nan)
+        known = np.isfinite(off) & ((model.law == PROJECTED) | np.less(g, model.touch(alpha)))
+        rubs = np.not_equal(friction, 0.0) | np.not_equal(wear, 0.0)
+        bound = np.where(known | ~rubs, off / (cleavage + friction + wear), np.nan)
     return bound.item() if bound.ndim == 0 else bound

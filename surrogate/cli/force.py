@@ -91,7 +91,15 @@ def force_text(record: Record, diameters: bool = False) -> str:
     parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
     header = (*_wire_header(diameters), *parts, "model", "error up to", "model holds")
     law = "" if record["law"] == PROJECTED else f", law of {record['law']}"
-    return f"Model {name}, {words}{law}\n" + table(header, rows)
+    text = f"Model {name}, {words}{law}\n" + table(header, rows)
+    if law and any(wire["relative_error"] != wire["relative_error"] for wire in record["wires"]):
+        text += "\n" + _TIP
+    return text
+
+
+_TIP = """\
+Where the error is unknown the crack's tip touches the wire: the force under the law of slip then
+depends on how sharp the tip is. That of the finite elements has a radius of 0.0005 R_w."""
 
 
 def _wire_header(diameters: bool) -> tuple[str, str]:

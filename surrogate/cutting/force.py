@@ -59,7 +59,8 @@ class CuttingForce(Record):
         Name of the model of each point.
     law : str
         The law of dissipation, "projected" or "slip"; `relative_error` is beside finite elements of
-        this law.
+        this law, and nan under "slip" where the tip touches the wire: the slip there depends on how
+        sharp the tip is, which for the numbers is a notch of 5e-4 R_w.
 
     References
     ----------
