@@ -41,7 +41,7 @@ BASE = {
     "force_std": STD,
     "confidence": 0.95,
     "threshold": 2.0 / 3.0,
-    "rtol": 0.02,
+    "rtol": 0.05,
     "extrapolate": False,
     "law": "projected",
     "std": {"toughness": 0.2, "wear_strength": 500.0},
