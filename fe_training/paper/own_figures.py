@@ -61,7 +61,7 @@ def contact_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     """
     left, right = panels(figure, 2)[0]
     wedge = far_field_wedge(np.geomspace(2.0, 60.0, 100))
-    g = np.geomspace(2.5e-3, 100.0, 300)
+    g = np.geomspace(2.5e-3, max(one.g.max() for one in curves), 360)
     handles: list[Any] = []
     for one in curves:
         own = one.alpha in STYLES
@@ -120,10 +120,12 @@ def eq13_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     axes = panels(figure, len(_FRICTION), len(curves))
     ratio = np.geomspace(*_RATIO, 41)
     parts: list[Columns] = []
+    reach = min(one.g.min() for one in curves), max(one.g.max() for one in curves)
     for line, one in zip(axes, curves, strict=True):
         for ax, xi in zip(line, _FRICTION, strict=True):
             error = eq13_error(one.g, one.arc, one.normal_load, xi, ratio[:, None])
             filled = _error_map(ax, one.g, ratio, 100.0 * error)
+            ax.set_xlim(reach)
             ax.set_title(rf"$\alpha$ = {one.alpha:g}, $\xi$ = {xi:g}", fontsize=MEDIUM)
             label_axes(ax, TOUGHNESS, r"$\tau_w/(\mu\xi)$ [-]")
             ax.label_outer()
