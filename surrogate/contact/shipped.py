@@ -162,20 +162,27 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
 
 #: Where the answers of a file are compared: shares of the domain in ln g and in ln alpha.
 _ASKED = ((0.02, 0.05), (0.3, 0.5), (0.55, 0.0), (0.75, 0.95), (0.6, 0.3))
-_ASKED_MODELS = ("power-law", "table")  # the process is not solved before it is needed
 
 
 def _answers(fitted: Fitted) -> dict[str, list[list[float]]]:
-    """Return the functions of the quicker models at a few points."""
+    """Return the functions of the formula at a few points, and of the table at some of its nodes.
+
+    Elsewhere the table has to make its cells first, and the process to be solved: for whoever
+    loads a file to compute one force either would take longer than everything else.
+    """
     (low, high), (first, last) = fitted.limits.log_g, fitted.limits.log_alpha
     points = [
         (float(np.exp(low + g * (high - low))), float(np.exp(first + a * (last - first))))
         for g, a in _ASKED
     ]
-    names = tuple(fitted.processes)
+    names, formula = tuple(fitted.processes), fitted.models["power-law"]
+    sides = [side for name in names for side in fitted.table.nodes[name]]
     return {
-        model: [list(map(float, fitted.models[model].contact(names, *at))) for at in points]
-        for model in _ASKED_MODELS
+        "power-law": [list(map(float, formula.contact(names, *at))) for at in points],
+        "table": [
+            [float(side[int(g * (len(side) - 1)), int(a * (side.shape[1] - 1))]) for side in sides]
+            for g, a in _ASKED
+        ],
     }
 
 
