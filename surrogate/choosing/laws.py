@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from surrogate.basics.checks import shown
+from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.contact.fitted import PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import InputError
@@ -28,8 +29,7 @@ _BEST = "table"
 def of_law(model: Any, law: object) -> Any:
     """Return what `model` is to be under a law: itself for "projected", else a model's object.
 
-    Under "slip" the name "auto" is the table, the quickest of the models whose A* and B* are those
-    of the finite elements within a fraction of a per cent.
+    Under "slip" the name "auto" is the table, the quickest of the fitted models at many points.
 
     Parameters
     ----------
@@ -86,8 +86,6 @@ def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, A
         The bound [-]; nan outside the domain, and under "slip" where the tip touches the wire and
         the slip there depends on how sharp it is.
     """
-    from surrogate.choosing.accuracy import contact_bounds
-
     bounds = contact_bounds(model, g, alpha)
     assert bounds is not None  # of a fitted model
     with np.errstate(all="ignore"):
