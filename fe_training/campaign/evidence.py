@@ -65,7 +65,7 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
             **_notch_slopes(design, one, values),
             # of the values at the target, for which it grows as the root of g
             "truncation_error": round(
-                record.truncation_error * np.sqrt(1.0 / _off(one, record)), 12
+                record.truncation_error * np.sqrt(1.0 / _relative_to_target(one, record)), 12
             ),
             "force_mismatch": record.force_mismatch,
             "support_spread": record.support_spread if reached else np.nan,
@@ -76,7 +76,7 @@ def point_columns(design: CampaignDesign, rows: Sequence[Row]) -> dict[str, Arra
     return {name: np.array([point[name] for point in points]) for name in POINT_COLUMNS}
 
 
-def _off(one: Configuration, record: Record) -> float:
+def _relative_to_target(one: Configuration, record: Record) -> float:
     """Return J over what was wanted; 1 where nothing was reached."""
     ratio = record.energy_release_rate / one.target
     return float(ratio) if np.isfinite(ratio) else 1.0

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
+from fe_training.solver.record import ToldOutcome
 
-class SlidingOutcome(Enum):
+
+class SlidingOutcome(ToldOutcome):
     """How a configuration ended, with what to do about it."""
 
     CONVERGED = ("equilibrium found, the balance within its bound", "")
@@ -37,16 +38,6 @@ class SlidingOutcome(Enum):
         "the frictionless configuration that the path begins from was not reached",
         "ask for another g or alpha",
     )
-
-    @property
-    def meaning(self) -> str:
-        """What happened."""
-        return self.value[0]
-
-    @property
-    def remedy(self) -> str:
-        """What to do about it; empty where nothing is wrong."""
-        return self.value[1]
 
 
 #: Bound on |F_ss - J - 2 int tau lambda ds|, relative to F_ss.

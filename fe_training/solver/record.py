@@ -12,7 +12,21 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Outcome(Enum):
+class ToldOutcome(Enum):
+    """An end of a computation; each member's value is its meaning and its remedy."""
+
+    @property
+    def meaning(self) -> str:
+        """What happened."""
+        return str(self.value[0])
+
+    @property
+    def remedy(self) -> str:
+        """What to do about it; empty where nothing is wrong."""
+        return str(self.value[1])
+
+
+class Outcome(ToldOutcome):
     """How a configuration ended, with what to do about it."""
 
     CONVERGED = (
@@ -39,16 +53,6 @@ class Outcome(Enum):
         "the root search did not meet the wanted value",
         "ask for a path of several values around it",
     )
-
-    @property
-    def meaning(self) -> str:
-        """What happened."""
-        return self.value[0]
-
-    @property
-    def remedy(self) -> str:
-        """What to do about it; empty where nothing is wrong."""
-        return self.value[1]
 
 
 #: Bounds on |J - 2 F_h|/J: above and below this g (small forces along the cut are differences of
