@@ -83,7 +83,7 @@ class Domain:
     @cached_property
     def _shared(self) -> tuple[float, float]:
         """The ends in ln g that all alphas share."""
-        return self.log_g[0], min(self._nodes[1]) if self.highest else self.log_g[1]
+        return self.log_g[0], float(np.log(self._of_all[1]))
 
     def log_highest(self, log_alpha: Any) -> Any:
         """Return ln of the highest g at ln alpha inside the domain."""
@@ -120,7 +120,7 @@ class Domain:
     @cached_property
     def _of_all(self) -> tuple[float, float]:
         """The ends in g that all alphas share."""
-        return self.g[0], min(g for _, g in (*self.highest, self.alpha[:1] + self.g[1:]))
+        return self.g[0], min((g for _, g in self.highest), default=self.g[1])
 
     def all_hold(self, g: Any, alpha: Any) -> Any:
         """Return True where all points are inside, which is soon known, else what `holds` does."""
