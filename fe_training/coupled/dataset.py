@@ -53,6 +53,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "touches_tip": ("-", "whether the wire touches the tip"),
     "touches_plane": ("-", "whether the crack face touches the symmetry plane"),
     "grazing": ("-", "nodes that touch without pressure, with a part of tau_w"),
+    "pull": ("-", "largest pull on a node held to the wire, relative to the contact force"),
     "residual": ("-", "residual relative to the contact force"),
     "iterations": ("-", "Newton iterations of the last step"),
     "steps": ("-", "steps of the load since the frictionless configuration"),

@@ -32,7 +32,11 @@ Array = NDArray[np.float64]
 
 #: Shares of the scatter of det F from which on elements are split: after a step that leaves more
 #: than the whole of it, and where a path stalls.
-_SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25, 0.125)
+_SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25,)
+
+#: A path that ends has met the limit of the load where dJ/dx_w fell below this share of what it is
+#: without load, and along a line to 0 would vanish within this share of the load.
+_LIMIT_RATE, _LIMIT_REACH = 0.25, 0.25
 
 #: The stretch of the face is looked at beyond this many notch radii.
 _NOTCH_REACH = 10.0
@@ -75,6 +79,7 @@ class SlidingCut:
         arc = observe.contact_arc(cut.body, state)
         self.first_arc, self.first_load = arc.slip_arc, arc.slip_load
         self.steps, self._clock = 0, time.process_time()
+        self._rates: list[tuple[float, Load]] = []
 
     def _on(self, state: State) -> None:
         """Take up the body of the cut."""
@@ -95,6 +100,7 @@ class SlidingCut:
             try:
                 for share, state in follow(self.problem, self.state, leg, steps, here):
                     here, self.state, self.point, rescues = share, state, leg.at(share), 0
+                    self._rates.append((state.position_rate, self.point.load))
                     self.steps += 1
                     self._check()
                     adapted = self._adapted(leg, here)
@@ -119,12 +125,32 @@ class SlidingCut:
             )
 
     def _ended(self, error: SlidingStalledError) -> SlidingEndError:
-        load, folded = self.point.load, error.outcome is NewtonOutcome.CONVERGED
+        load, limit = self.point.load, self._limit()
+        if limit is not None:
+            return SlidingEndError(
+                SlidingOutcome.LIMIT,
+                f"dJ/dx_w vanishes near xi = {limit.friction:.4g}, tau_w/mu = {limit.wear:.4g}; no "
+                f"equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g}",
+            )
+        folded = error.outcome is NewtonOutcome.CONVERGED
         return SlidingEndError(
             SlidingOutcome.FOLDED if folded else SlidingOutcome.STALLED,
             f"no equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g} "
             f"({error.outcome.value})",
         )
+
+    def _limit(self) -> Load | None:
+        """Return the load at which dJ/dx_w would vanish, if the path ended near one."""
+        if len(self._rates) < 3:
+            return None
+        first, (before, earlier), (rate, load) = self._rates[0][0], *self._rates[-2:]
+        if not rate < min(before, _LIMIT_RATE * first):
+            return None
+        left = rate / (before - rate)
+        limit = load.plus(load.plus(earlier, -1.0), left)
+        near = limit.plus(load, -1.0)
+        close = near.friction <= _LIMIT_REACH * load.friction
+        return limit if close and near.wear <= _LIMIT_REACH * load.wear else None
 
     def _adapted(self, leg: Leg, here: float) -> bool:
         """Refine where det F scatters too much; return whether there was anything to refine."""
@@ -223,6 +249,7 @@ class SlidingCut:
             touches_tip=bool(state.active.wire[0]),
             touches_plane=bool(state.active.plane.any()),
             grazing=int(state.grazing.sum()),
+            pull=max(0.0, -float(state.force.min() / np.abs(state.force).sum())),
             residual=state.residual,
             iterations=state.iterations,
             steps=self.steps,

@@ -203,10 +203,11 @@ def _best(known: Candidates, bounds: list[Array], needed: dict[str, Any], rtol: 
 
 def choose_number(
     known: Candidates, cell: int, parts: Sequence[float], rtol: float
-) -> tuple[int, float, bool, bool]:
+) -> tuple[int, float, bool, bool, bool]:
     """Do the same as `chosen_terms` for one point: its model, bound and which terms it needs.
 
-    The model is that of the number -1 where none is exact enough.
+    The number of the model comes with a True at the end where it is the best one, yet not exact
+    enough.
     """
     cleavage, worn, rubbed = parts
     least_arc, most_arc, error_arc, *arc_of = known.of_terms["arc"][cell]
@@ -217,20 +218,23 @@ def choose_number(
     worst_load = rubbed * error_load / low if rubbed else 0.0
     together = worst_arc + worst_load
     if together <= rtol:
-        return 0, together, False, False
+        return 0, together, False, False, False
     needs_arc = together > rtol and worst_arc > NEGLIGIBLE * rtol
     needs_load = together > rtol and worst_load > NEGLIGIBLE * rtol
     left = (0.0 if needs_arc else worst_arc) + (0.0 if needs_load else worst_load)
     share_arc = min(worn * most_arc / low, 1.0) if worn else 0.0
     share_load = min(rubbed * most_load / low, 1.0) if rubbed else 0.0
-    finite = together < INFINITY
+    best, least = 0, together
     for number, (arc, load) in enumerate(zip(arc_of, load_of), start=1):  # noqa: B905
         arc, load = arc if needs_arc else 0.0, load if needs_load else 0.0
         bound = min(share_arc * arc + share_load * load, max(arc, load)) + left
         if bound <= rtol:
-            return number, bound, needs_arc, needs_load
-        finite = finite or bound < INFINITY
-    return (-1 if finite else known.outside), math.nan, needs_arc, needs_load
+            return number, bound, needs_arc, needs_load, False
+        if bound < least:
+            best, least = number, bound
+    if least == INFINITY:
+        return known.outside, math.nan, needs_arc, needs_load, False
+    return best, least, needs_arc, needs_load, True
 
 
 def require_met(chosen: Chosen, g: Array, alpha: Array, rtol: float) -> None:
