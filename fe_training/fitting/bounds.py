@@ -9,6 +9,7 @@ the cell, and the table's own bound.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates, log_touch
 from surrogate.contact.process import GaussianProcess
 
-__all__ = ["fit_bounds", "left_out_errors"]
+__all__ = ["fit_bounds", "fit_slip_bounds", "left_out_errors"]
 
 Floats = NDArray[np.float64]
 
@@ -33,6 +34,20 @@ PROJECTED_TWIN = dict(zip(SLIP_QUANTITIES, QUANTITIES, strict=False))
 
 SAFETY = 2.0
 """How many times the largest error of a few dozen points of a cell the largest of all may be."""
+
+RATIO_EDGES = (1e-3, 1e-2, 0.1, 0.25, 0.5, 0.8), (1.5, 3.0, 10.0, 30.0)
+"""Edges in g/g_touch of the cells of A* and B*, on either side of the touch."""
+
+FEWEST_UNSEEN = 3
+"""Points that no fit saw from which on a cell is judged by them."""
+
+DOUBT = 2.0
+"""How many standard errors of ln g_touch from it A* and B*, which jump there, are not known."""
+
+SHARP = 3.0
+"""Up to this alpha A* and B* past the touch have no limit, or none that is near, as the tip gets
+sharper: by up to 13 % for each factor of e in its radius at alpha = 2, 3 % at 2.5, below 0.7 % from
+3.1 on."""
 
 _GRID = 24  # points of a cell along each direction
 
@@ -80,6 +95,101 @@ def fit_bounds(
         for name, values in found.items():
             errors[name][function] = values
     return Bounds(*edges, errors)
+
+
+def fit_slip_bounds(
+    points: FitPoints,
+    touch: Touch,
+    processes: Mapping[str, GaussianProcess],
+    models: Mapping[str, ForceModel],
+    off_grid: FitPoints | None = None,
+) -> Bounds:
+    """Return the bounds of A* and B* over g/g_touch, as both change abruptly where the tip touches.
+
+    Nearer to the touch than a few of its own standard errors nothing is known, nor past it where
+    the size of the tip decides. A cell with a few points that no fit saw has their largest error,
+    others that of points and alphas left out, times the factor of safety.
+
+    Parameters
+    ----------
+    points, touch, processes, models
+        As for `fit_bounds`.
+    off_grid : FitPoints, optional
+        Points that no fit saw.
+
+    Returns
+    -------
+    Bounds
+        Infinite where nothing is known.
+    """
+    ratio = points.g / np.exp(log_touch(touch.coefficients, np.log(points.alpha)))
+    near = float(np.exp(DOUBT * touch.error))
+    wanted = (*RATIO_EDGES[0], 1.0 / near, near, *RATIO_EDGES[1])
+    corners = _corners(points, touch)
+    edges = _edges(wanted, corners), _edges(ALPHA_EDGES, points.alpha)
+    left_out = left_out_errors(points, processes)
+    scaled = replace(points, g=ratio)
+    unseen = _unseen(off_grid, touch, models["gp"])
+    known = {"eq13": FORCE_MODELS["eq13"], **models}
+    errors: dict[str, dict[str, Floats]] = {name: {} for name in known}
+    for function in SLIP_QUANTITIES:
+        own = _own_errors(scaled, left_out[function], edges)
+        if unseen is not None:
+            there, errors_there = unseen
+            count = _counted(there, edges)
+            own = np.where(
+                count >= FEWEST_UNSEEN, _own_errors(there, errors_there[function], edges), own
+            )
+        found = {name: np.full(own.shape, np.inf) for name in known}
+        for cell in np.ndindex(own.shape):
+            q, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+            ratios, alphas = _grid(q, alpha)
+            g = ratios * np.exp(log_touch(touch.coefficients, np.log(alphas)))
+            there = np.asarray(models["table"].holds(g, alphas))
+            sharp = alpha[1] <= SHARP and q[1] > 1.0
+            if sharp or (q[0] < 1.0 < q[1]) or not there.any():
+                continue
+            at = g[there], alphas[there]
+            table = models["table"].contact((function,), *at)[0]
+            apart = {name: _apart(model, function, at, table) for name, model in known.items()}
+            bound = SAFETY * own[cell]
+            for name in apart:
+                found[name][cell] = bound + (name != "gp") * apart["gp"]
+            for name in apart.keys() - {"gp", "table"}:
+                found[name][cell] += apart[name]
+        for name, values in found.items():
+            errors[name][function] = values
+    return Bounds(*edges, errors, touch.coefficients)
+
+
+def _unseen(
+    off_grid: FitPoints | None, touch: Touch, model: ForceModel
+) -> tuple[FitPoints, dict[str, Floats]] | None:
+    """Return points that no fit saw, over g/g_touch, with the errors of a model there."""
+    if off_grid is None or not {*SLIP_QUANTITIES} <= {*off_grid.names}:
+        return None
+    g, alpha = off_grid.g, off_grid.alpha
+    values = model.contact(SLIP_QUANTITIES, g, alpha)
+    inside = np.asarray(model.holds(g, alpha))
+    errors = {
+        name: np.where(inside, np.abs(np.log(value / getattr(off_grid, name))), 0.0)
+        for name, value in zip(SLIP_QUANTITIES, values, strict=True)
+    }
+    ratio = np.where(inside, g / np.exp(log_touch(touch.coefficients, np.log(alpha))), np.inf)
+    return replace(off_grid, g=ratio), errors
+
+
+def _counted(points: FitPoints, edges: tuple[tuple[float, ...], tuple[float, ...]]) -> Floats:
+    """Return the number of points of each cell."""
+    return np.histogram2d(points.g, points.alpha, [np.array(each) for each in edges])[0]
+
+
+def _corners(points: FitPoints, touch: Touch) -> Floats:
+    """Return the least and the largest g/g_touch of the domain, a rounding farther out."""
+    log_alpha = np.log(np.linspace(points.alpha.min(), points.alpha.max(), 200))
+    touches = np.exp(log_touch(touch.coefficients, log_alpha))
+    low, high = points.g.min() / touches.max(), points.g.max() / touches.min()
+    return np.array([low * (1.0 - 1e-9), high * (1.0 + 1e-9)])
 
 
 def _own_errors(

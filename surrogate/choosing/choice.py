@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import INFINITY, SMALLEST, FloatOrArray
-from surrogate.choosing.candidates import FREE, TERMS, Candidates, available, candidates
+from surrogate.choosing.candidates import FREE, Candidates, available, candidates
 from surrogate.contact.base import ForceModel
 from surrogate.contact.coordinates import QUANTITIES
-from surrogate.contact.shipped import Fitted
 from surrogate.errors import AccuracyError
 
 __all__ = [
@@ -74,7 +73,7 @@ def choose_terms(
     alpha: Array,
     parts: Sequence[Array],
     rtol: float,
-    fitted: Fitted | None = None,
+    known: Candidates | None = None,
     refuse: bool = True,
 ) -> Chosen:
     """Return models for the terms of forces.
@@ -87,8 +86,8 @@ def choose_terms(
         Gamma_o and the terms of wear and friction by Eq. (13) [N/m].
     rtol : float
         Relative error of their sum that will do [-].
-    fitted : Fitted, optional
-        The models to choose among; the shipped ones by default.
+    known : Candidates, optional
+        The models to choose among; the shipped ones of the projected law by default.
     refuse : bool, default True
         Whether to raise an error where no model is as exact, and not take the best one.
 
@@ -97,7 +96,7 @@ def choose_terms(
     AccuracyError
         If no model is as exact; the message names the best one.
     """
-    known = candidates(fitted)
+    known = known or candidates()
     with np.errstate(all="ignore"):
         chosen = chosen_terms(known, known.bounds.cell(g, alpha), parts, rtol)
     if refuse:
@@ -112,7 +111,7 @@ def chosen_terms(known: Candidates, cell: Any, parts: Sequence[Any], rtol: float
     """
     terms = [
         _Term(known, name, cell, estimate)
-        for name, estimate in zip(TERMS, parts[1:], strict=True)
+        for name, estimate in zip(known.terms, parts[1:], strict=True)
         if type(estimate) is not float or estimate
     ]
     low = np.maximum(sum((term.least() for term in terms), parts[0]), SMALLEST)
@@ -210,8 +209,8 @@ def choose_number(
     enough.
     """
     cleavage, worn, rubbed = parts
-    least_arc, most_arc, error_arc, *arc_of = known.of_terms["arc"][cell]
-    least_load, most_load, error_load, *load_of = known.of_terms["normal_load"][cell]
+    least_arc, most_arc, error_arc, *arc_of = known.of_terms[known.terms[0]][cell]
+    least_load, most_load, error_load, *load_of = known.of_terms[known.terms[1]][cell]
     low = cleavage + (worn * least_arc if worn else 0.0)
     low = max(low + (rubbed * least_load if rubbed else 0.0), SMALLEST)
     worst_arc = worn * error_arc / low if worn else 0.0

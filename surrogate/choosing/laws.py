@@ -92,7 +92,7 @@ def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, A
         cleavage, friction, wear = parts
         off = np.where(friction == 0.0, 0.0, friction * bounds[1])
         off = off + np.where(wear == 0.0, 0.0, wear * bounds[0])
-        known = np.isfinite(off) & ((model.law == PROJECTED) | np.less(g, model.touch(alpha)))
+        known = np.isfinite(off)
         rubs = np.not_equal(friction, 0.0) | np.not_equal(wear, 0.0)
         bound = np.where(known | ~rubs, off / (cleavage + friction + wear), np.nan)
     return bound.item() if bound.ndim == 0 else bound

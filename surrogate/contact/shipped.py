@@ -76,6 +76,12 @@ class Fitted:
         return Bounds.from_dict(self.about["bounds"])
 
     @cached_property
+    def slip_bounds(self) -> Bounds | None:
+        """The measured errors of A* and B*; None where the file has none."""
+        told = self.about.get("slip_bounds")
+        return None if told is None else Bounds.from_dict(told)
+
+    @cached_property
     def models(self) -> dict[str, FittedModel]:
         """The models by their names."""
         models = (
