@@ -122,44 +122,59 @@ def fit_slip_bounds(
     Bounds
         Infinite where nothing is known.
     """
-    ratio = points.g / np.exp(log_touch(touch.coefficients, np.log(points.alpha)))
     near = float(np.exp(DOUBT * touch.error))
     wanted = (*RATIO_EDGES[0], 1.0 / near, near, *RATIO_EDGES[1])
-    corners = _corners(points, touch)
-    edges = _edges(wanted, corners), _edges(ALPHA_EDGES, points.alpha)
+    edges = _edges(wanted, _corners(points, touch)), _edges(ALPHA_EDGES, points.alpha)
     left_out = left_out_errors(points, processes)
-    scaled = replace(points, g=ratio)
+    scaled = replace(points, g=_ratio(points.g, points.alpha, touch))
     unseen = _unseen(off_grid, touch, models["gp"])
-    known = {"eq13": FORCE_MODELS["eq13"], **models}
-    errors: dict[str, dict[str, Floats]] = {name: {} for name in known}
+    errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
     for function in SLIP_QUANTITIES:
         own = _own_errors(scaled, left_out[function], edges)
         if unseen is not None:
-            there, errors_there = unseen
-            count = _counted(there, edges)
-            own = np.where(
-                count >= FEWEST_UNSEEN, _own_errors(there, errors_there[function], edges), own
-            )
-        found = {name: np.full(own.shape, np.inf) for name in known}
+            others, errors_there = unseen
+            judged = _counted(others, edges) >= FEWEST_UNSEEN
+            own = np.where(judged, _own_errors(others, errors_there[function], edges), own)
+        found = {name: np.full(own.shape, np.inf) for name in errors}
         for cell in np.ndindex(own.shape):
             q, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
-            ratios, alphas = _grid(q, alpha)
-            g = ratios * np.exp(log_touch(touch.coefficients, np.log(alphas)))
-            there = np.asarray(models["table"].holds(g, alphas))
-            sharp = alpha[1] <= SHARP and q[1] > 1.0
-            if sharp or (q[0] < 1.0 < q[1]) or not there.any():
+            if (q[0] < 1.0 < q[1]) or (q[0] > 1.0 and alpha[1] <= SHARP):
                 continue
-            at = g[there], alphas[there]
-            table = models["table"].contact((function,), *at)[0]
-            apart = {name: _apart(model, function, at, table) for name, model in known.items()}
-            bound = SAFETY * own[cell]
-            for name in apart:
-                found[name][cell] = bound + (name != "gp") * apart["gp"]
-            for name in apart.keys() - {"gp", "table"}:
-                found[name][cell] += apart[name]
+            ratio, alphas = _grid(q, alpha)
+            at = _inside(models["table"], ratio * _touching(alphas, touch), alphas)
+            for name, bound in _slip_errors(function, SAFETY * own[cell], at, models).items():
+                found[name][cell] = bound
         for name, values in found.items():
             errors[name][function] = values
     return Bounds(*edges, errors, touch.coefficients)
+
+
+def _slip_errors(
+    function: str, bound: float, at: tuple[Floats, Floats], models: Mapping[str, ForceModel]
+) -> dict[str, float]:
+    """Return the bounds of all models in a cell, that of the process being known."""
+    if not at[0].size:
+        return {}
+    table = models["table"].contact((function,), *at)[0]
+    known = {"eq13": FORCE_MODELS["eq13"], **models}
+    apart = {name: _apart(model, function, at, table) for name, model in known.items()}
+    of_table = bound + apart["gp"]
+    return {**{name: of_table + apart[name] for name in apart}, "gp": bound, "table": of_table}
+
+
+def _inside(model: ForceModel, g: Floats, alpha: Floats) -> tuple[Floats, Floats]:
+    """Return those of some points that are in the domain."""
+    there = np.asarray(model.holds(g, alpha))
+    return g[there], alpha[there]
+
+
+def _touching(alpha: Floats, touch: Touch) -> Floats:
+    """Return g_touch."""
+    return np.asarray(np.exp(log_touch(touch.coefficients, np.log(alpha))))
+
+
+def _ratio(g: Floats, alpha: Floats, touch: Touch) -> Floats:
+    return g / _touching(alpha, touch)
 
 
 def _unseen(
@@ -175,19 +190,19 @@ def _unseen(
         name: np.where(inside, np.abs(np.log(value / getattr(off_grid, name))), 0.0)
         for name, value in zip(SLIP_QUANTITIES, values, strict=True)
     }
-    ratio = np.where(inside, g / np.exp(log_touch(touch.coefficients, np.log(alpha))), np.inf)
+    ratio = np.where(inside, _ratio(g, alpha, touch), np.inf)
     return replace(off_grid, g=ratio), errors
 
 
 def _counted(points: FitPoints, edges: tuple[tuple[float, ...], tuple[float, ...]]) -> Floats:
     """Return the number of points of each cell."""
-    return np.histogram2d(points.g, points.alpha, [np.array(each) for each in edges])[0]
+    bins = [np.array(each) for each in edges]
+    return np.asarray(np.histogram2d(points.g, points.alpha, bins)[0])
 
 
 def _corners(points: FitPoints, touch: Touch) -> Floats:
     """Return the least and the largest g/g_touch of the domain, a rounding farther out."""
-    log_alpha = np.log(np.linspace(points.alpha.min(), points.alpha.max(), 200))
-    touches = np.exp(log_touch(touch.coefficients, log_alpha))
+    touches = _touching(np.linspace(points.alpha.min(), points.alpha.max(), 200), touch)
     low, high = points.g.min() / touches.max(), points.g.max() / touches.min()
     return np.array([low * (1.0 - 1e-9), high * (1.0 + 1e-9)])
 
