@@ -39,6 +39,7 @@ napoleon_use_rtype = False
 napoleon_use_ivar = True
 
 html_theme = "furo"
+html_extra_path = ["_gallery/explorer-app.html"]  # made by scripts/gallery
 html_title = f"wirecut {release}"
 html_copy_source = False
 html_show_sphinx = False

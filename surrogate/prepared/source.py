@@ -16,7 +16,7 @@ from surrogate.choosing.candidates import candidates
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
 from surrogate.prepared.plan import GAMMA, MU, RADIUS, Plan
-from surrogate.prepared.statements import arrays_of, cases_of, force_statements
+from surrogate.prepared.statements import COEFFICIENTS, arrays_of, cases_of, force_statements
 from surrogate.prepared.table_source import table_part
 from surrogate.scene import QUANTITIES
 from surrogate.version import __version__
@@ -55,13 +55,13 @@ def source_of(force: Any, language: str) -> str:
         "names": ", ".join(plan.varying),
         "checks": "\n".join(_checks(plan, dialect, needs_g)),
         "arrays": "\n".join(arrays_of(plan, dialect)),
-        "table": table_part(plan.table, plan.of_table, dialect) if needs_g else "",
+        "table": table_part(plan.table, _functions(plan), dialect) if needs_g else "",
         "cases": _cases(force, dialect),
         "calls": _calls(plan, dialect),
         "columns": str(len(plan.varying) + 1),
         "count": str(len(plan.varying)),
         "tolerance": repr(TOLERANCE),
-        "others": ", arc: arc, load: load, logTouch" if needs_g and len(plan.of_table) == 2 else "",
+        "others": ", arc, load, byLogG, logTouch" if needs_g and len(plan.of_table) == 2 else "",
     }
     statements, total = force_statements(plan, dialect)
     parts["body"] = "\n".join(f"  {'  ' * (language == 'python')}{line}" for line in statements)
@@ -70,6 +70,13 @@ def source_of(force: Any, language: str) -> str:
     for key, value in parts.items():
         text = text.replace(f"<<{key}>>", value)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
+
+
+def _functions(plan: Plan) -> dict[str, str]:
+    """Return the table's functions for A and B under the plan's law, by their names."""
+    assert plan.table is not None
+    names = dict(zip(COEFFICIENTS, plan.table.rubbing, strict=True))
+    return {COEFFICIENTS[term]: names[term] for term in plan.of_table}
 
 
 def _about(force: Any, dialect: Dialect) -> list[str]:
