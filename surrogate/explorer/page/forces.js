@@ -119,7 +119,7 @@ function drawForces(plot, state, size, change) {
   const curves = valid ? LAWS.map((one) => curveOf(one, state, right)) : [];
   const main = curves[LAWS.indexOf(law)] ?? [];
   const top = topOf(main, curves, state);
-  const inner = linearScale(across*(Number.isFinite(right) && right > 0 ? right : 1e-3), 58, width - 74);
+  const inner = linearScale(across*(Number.isFinite(right) && right > 0 ? right : 1e-3), 58, width - 80);
   const x = {...inner, to: (radius) => inner.to(across*radius), from: (px) => inner.from(px)/across};
   const y = linearScale(top, height - 48, 12);
   const box = {x: x.start, y: y.end, width: x.end - x.start, height: y.start - y.end};

@@ -95,7 +95,7 @@ function axes(x, y, xLabel, yLabel) {
   group.append(lettered(xLabel, {x: middle, y: y.start + 38, "text-anchor": "middle"}));
   group.append(lettered(yLabel, {
     x: 0, y: 0, "text-anchor": "middle",
-    transform: `translate(14 ${0.5*(y.start + y.end)}) rotate(-90)`,
+    transform: `translate(16 ${0.5*(y.start + y.end)}) rotate(-90)`,
   }));
   return group;
 }
