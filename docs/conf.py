@@ -22,6 +22,7 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinxcontrib.katex",
 ]
 exclude_patterns = ["_build"]
 templates_path = []
@@ -37,6 +38,11 @@ autosummary_generate = False
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
+
+# Formulas without a network: by the script in the package, which writes MathML that browsers draw.
+html_math_renderer = "katex"
+katex_options = "output: 'mathml'"
+katex_css_path = "katex-math.css"
 
 html_theme = "furo"
 html_extra_path = ["_gallery/explorer-app.html"]  # made by scripts/gallery
