@@ -268,6 +268,8 @@ def _identified_wires(fit: Identification) -> list[Record]:
         wire_radius=fit.wire_radius,
         dimensionless_toughness=fit.dimensionless_toughness,
         force=fit.force,
+        force_std=fit.force_std,
+        sample=fit.sample,
         residual=fit.residuals,
         **regime,
     )
