@@ -235,7 +235,7 @@ def run_identify(options: argparse.Namespace) -> int:
         "forces": origin,
         "picture": options.plot,
     }
-    record |= identification_record(fit, material)
+    record |= identification_record(fit, material, options.example)
     record["verbose"] = options.verbose
     print_record(options, record, identification_text)
     return DOUBTED if record["objections"] or measurements.warnings else 0
