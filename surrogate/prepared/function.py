@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from surrogate.basics.checks import FloatOrArray, Quantity, broadcast_shape
 from surrogate.basics.elementwise import AT_ONCE, apply
 from surrogate.basics.records import number
+from surrogate.contact.fitted import PROJECTED
 from surrogate.errors import DomainError, InputError
 from surrogate.prepared.inverse import inverse, is_monotonic
 from surrogate.prepared.plan import ARC, LOAD, Plan
@@ -41,7 +42,7 @@ class ForceFunction:
         How it is evaluated.
     relative_error : float
         Proven bound of the relative error beside the finite elements of the frictionless contact,
-        anywhere in the ranges [-]; nan where the model has none.
+        anywhere in the ranges [-], under the law of dissipation; nan where there is none.
     data : mapping of str to str
         What the coefficients come from.
 
@@ -89,6 +90,11 @@ class ForceFunction:
             for term in names
             if self.plan.ranges[strengths[term]][1] > 0.0
         }
+
+    @property
+    def law(self) -> str:
+        """The law of dissipation, "projected" or "slip"."""
+        return self.plan.law
 
     @cached_property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -276,10 +282,10 @@ class ForceFunction:
             for name, (low, high) in self.ranges.items()
         )
         models = ", ".join(f"{term} by {model}" for term, model in self.terms.items())
-        return (
-            f"F_ss/T over {ends}; {models or 'cleavage alone'}; "
-            f"error up to {100.0 * self.relative_error:.2g} %"
-        )
+        law = "" if self.law == PROJECTED else f", law of {self.law}"
+        known = self.relative_error == self.relative_error
+        error = f"up to {100.0 * self.relative_error:.2g} %" if known else "unknown"
+        return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; error {error}"
 
 
 def _other_namespace(values: list[Any]) -> Any:

@@ -17,6 +17,7 @@ import numpy as np
 
 from surrogate.basics.elementwise import log
 from surrogate.contact.closed_forms import ClosedForm
+from surrogate.contact.fitted import PROJECTED
 from surrogate.contact.table import TableModel
 from surrogate.prepared.line import Line, line_of, summed
 from surrogate.prepared.proof import g_range
@@ -45,6 +46,8 @@ class Plan:
         What gives the terms named by `of_table`.
     of_table : tuple of str
         "arc" and "normal_load", as far as the table gives them.
+    law : str
+        The law of dissipation, which says what these are; that of the table.
     """
 
     varying: tuple[str, ...]
@@ -52,6 +55,7 @@ class Plan:
     form: ClosedForm
     table: TableModel | None = field(repr=False)
     of_table: tuple[str, ...]
+    law: str = PROJECTED
 
     @cached_property
     def fixed(self) -> dict[str, float]:

@@ -1,5 +1,7 @@
 """Prepared forces: the numbers of the models, what is proven of them, and what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -93,6 +95,62 @@ def test_auto_keeps_its_promise_beside_the_gp_whose_bounds_it_uses(rtol):
             float(np.max(candidates().error("gp", name)[:-1])) for name in ("arc", "normal_load")
         )
         assert np.max(np.abs(force(radius) / there - 1.0)) <= force.relative_error + own
+
+
+@pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
+def test_under_the_law_of_slip_it_is_the_force_of_that_law(varying):
+    force, values = of(varying, law="slip"), points(varying)
+    scene = scene_of(varying, values)
+    np.testing.assert_allclose(
+        force(*values), cutting_force(scene, "table", law="slip").total, rtol=1e-13
+    )
+    assert np.array_equal(of(varying, "auto", law="slip")(*values), force(*values))
+    assert (force.law, of(varying).law) == ("slip", "projected")
+    assert "law of slip" in str(force)
+    slopes, found = force_gradient(scene, "table", law="slip"), force.gradient(*values)
+    for name in varying:
+        np.testing.assert_allclose(found[name], getattr(slopes, name), rtol=1e-11, atol=1e-300)
+
+
+def test_the_error_under_the_law_of_slip_is_known_short_of_the_touch():
+    """It is at least that of the points, and none where one of them has none."""
+    known = 0
+    for alpha in (2.0, 2.7, 4.0, 9.0):
+        for low, high in ((2e-4, 1e-2), (5e-3, 5e-2), (2e-4, 5e-2)):
+            gel = Scene(685.0, 1.6, 1e-4, 0.1, 7750.0, alpha)
+            force = prepare(gel, ranges={"wire_radius": (low, high)}, law="slip")
+            radii = Scene(685.0, 1.6, np.geomspace(low, high, 300), 0.1, 7750.0, alpha)
+            by_point = cutting_force(radii, "table", law="slip").relative_error
+            if np.isnan(by_point).any():
+                assert np.isnan(force.relative_error)
+                with pytest.raises(AccuracyError, match="where the crack's tip touches the wire"):
+                    prepare(gel, ranges={"wire_radius": (low, high)}, law="slip", rtol=1.0)
+            else:
+                known += 1
+                assert np.max(by_point) <= force.relative_error < 0.3
+    assert known > 4
+    bare = prepare(Scene(685.0, 1.6, 1e-4), ranges={"wire_radius": (1e-6, 1.0)}, law="slip")
+    assert (bare.relative_error, bare(0.5)) == (0.0, 1.6)
+
+
+def test_a_table_of_ones_own_is_taken_and_its_error_unknown():
+    table = candidates().fitted.models["table"]
+    nodes = {n: tuple(2.0 * side for side in sides) for n, sides in table.table.nodes.items()}
+    twice = replace(table, table=replace(table.table, nodes=nodes, _cells={}))
+    force = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model=twice)
+    usual = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model="table")
+    assert force(3e-4) - 1.6 == pytest.approx(2.0 * (usual(3e-4) - 1.6), rel=1e-13)
+    assert np.isnan(force.relative_error)
+
+
+def test_the_whole_domain_of_an_alpha_can_be_prepared():
+    limits = candidates().limits
+    for alpha, highest in ((2.0, 100.0), (5.0, 1000.0)):
+        gel = Scene(1.0, 1.0, 1.0, 0.1, 1.0, alpha)
+        force = prepare(gel, ("toughness",), {"toughness": (limits.g[0], highest)}, "table")
+        ends = np.array([limits.g[0], highest])
+        there = cutting_force(Scene(1.0, ends, 1.0, 0.1, 1.0, alpha), "table").total
+        np.testing.assert_allclose(force(ends), there, rtol=1e-13)
 
 
 def test_the_bound_is_not_below_that_of_any_point():
@@ -207,6 +265,9 @@ def test_arguments_are_given_once():
         ({"fixed": {"shear_modulus": 685.0, "toughness": 1.0, "mu": 3.0}}, InputError, "'mu'"),
         ({"fixed": Scene([685.0], 1.6, 1e-4)}, InputError, "must be one number"),
         ({"model": "gp"}, InputError, "neither the table nor a closed form"),
+        ({"law": "greed"}, InputError, "law must be one of projected, slip"),
+        ({"law": "slip", "model": "eq13"}, InputError, "must have a model fitted"),
+        ({"law": "slip", "model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"model": "eq9"}, InputError, "neither the table nor a closed form"),
         ({"rtol": 1e-6}, AccuracyError, "all over the ranges"),
         ({"rtol": 0.02, "model": "low-toughness"}, AccuracyError, "known to nobody"),
