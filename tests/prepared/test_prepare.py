@@ -1,6 +1,9 @@
 """Prepared forces: the numbers of the models, what is proven of them, and what is refused."""
 
+import subprocess
+import sys
 from dataclasses import replace
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -211,6 +214,28 @@ def test_a_force_that_is_not_monotonic_is_not_inverted():
         of(("toughness",)).radius_for(7.0)
 
 
+def test_where_slip_jumps_at_the_touch_there_is_no_inverse():
+    gel = Scene(685.0, 1.6, 1e-4, 0.0, 7750.0, 3.0)
+    for ends, known in (((1e-4, 5e-4), True), ((1e-4, 5e-3), False), ((1e-3, 5e-3), True)):
+        force = prepare(gel, ranges={"wire_radius": ends}, law="slip")
+        assert (force.monotonic == "rising") == known
+    touch = 1.6 / (685.0 * candidates().fitted.models["table"].touch(3.0))
+    assert 5e-4 < touch < 1e-3
+    force = prepare(gel, ranges={"wire_radius": (5e-4, 1e-3)}, law="slip")
+    beside = force(np.array([touch * (1.0 - 1e-9), touch * (1.0 + 1e-9)]))
+    assert abs(beside[1] / beside[0] - 1.0) > 1e-3
+
+
+def test_a_modulus_is_found_where_one_term_needs_it():
+    gel = Scene(685.0, 1.6, 0.25e-3, 0.0, 7750.0, 2.5)
+    force = prepare(gel, ("shear_modulus",), {"shear_modulus": BOX["shear_modulus"]}, "table")
+    values = np.linspace(*BOX["shear_modulus"], 300)
+    slopes = np.sign(force.derivative(values))
+    assert {"falling": {-1.0}, "rising": {1.0}}.get(force.monotonic, {-1.0, 1.0}) == set(slopes)
+    both = prepare(GEL, ("shear_modulus",), {"shear_modulus": BOX["shear_modulus"]}, "table")
+    assert both.monotonic == "unknown"
+
+
 def test_outside_the_range():
     force = of(("wire_radius",))
     for bad in (2e-3, 5e-5, [2e-4, 2e-3]):
@@ -226,19 +251,76 @@ def test_outside_the_range():
         force(2e-4, outside="clip")
 
 
-def test_buffers_and_single_precision():
-    force = of(("wire_radius",))
-    radius = np.linspace(*BOX["wire_radius"], 70001)
-    exact, buffer = force(radius), np.empty(70001)
-    assert force(radius, out=buffer) is buffer
+@pytest.mark.parametrize("varying", ONES, ids=str)
+def test_buffers_and_single_precision(varying):
+    force, ends = of(varying), BOX[varying[0]]
+    values = np.linspace(*ends, 20001)
+    exact, buffer = force(values), np.empty(20001)
+    assert force(values, out=buffer) is buffer
     assert np.array_equal(buffer, exact)
-    some = np.linspace(1.1e-4, 9e-4, 50).astype(np.float32)
-    single = force(some)
+    strided = np.zeros((20001, 3))[:, 1]
+    assert np.array_equal(force(values, out=strided), exact)
+    assert np.array_equal(force(values[::-2]), exact[::-2])
+    overlapping = np.append(values, 0.0)
+    assert np.array_equal(force(overlapping[:-1], out=overlapping[1:]), exact)
+    assert np.array_equal(force(values, out=values), exact)
+    low, high = ends
+    some = np.linspace(low + 0.01 * (high - low), 0.99 * high, 5000).astype(np.float32)
+    single, further = force(some), force(some, out=np.empty(5000, np.float32))
     assert single.dtype == np.float32
+    assert np.array_equal(single, further)
+    assert np.array_equal(force(some, out=np.empty(5000)), force(some.astype(float)))
     np.testing.assert_allclose(single, force(some.astype(float)), rtol=2.0**-24)
-    for bad in (np.empty(3), [1.0], np.empty(70001, int)):
+    assert force(float(some[7]), out=np.empty(())).item() == force(float(some[7]))
+    locked = np.empty(20001)
+    locked.flags.writeable = False
+    for bad in (np.empty(3), [1.0], np.empty(20001, int), locked):
         with pytest.raises(InputError, match="out must"):
-            force(radius, out=bad)
+            force(np.linspace(*ends, 20001), out=bad)
+
+
+def test_single_precision_at_its_ends():
+    """What is beyond the range of float32 is infinite, and no warning."""
+    force = prepare(Scene(1.0, 1.0, 1.0), ("toughness",), {"toughness": (0.0, 1e60)})
+    values = np.array([0.0, 1e-45, 1.0, 3e38], np.float32)
+    assert np.array_equal(force(values), values)
+    large = np.array([1.0, 1e60])
+    assert np.array_equal(force(large, out=np.empty(2, np.float32)), [1.0, np.inf])
+    for bad in (np.array([1.0, np.nan], np.float32), np.array([1.0, np.inf], np.float32)):
+        with pytest.raises(DomainError, match="toughness must be"):
+            force(bad)
+        found = force(bad, outside="nan")
+        assert (found.dtype, found[0], np.isnan(found[1])) == (np.float32, 1.0, True)
+
+
+BOTH = """
+import sys
+import numpy as np
+from surrogate import Scene, prepare
+from surrogate.scene import NAMES
+box = dict(zip(NAMES, {box}))
+for law in ("projected", "slip"):
+    for name in NAMES:
+        for xi, wear in ((0.1, 7750.0), (0.1, 0.0), (0.0, 7750.0), (0.0, 0.0)):
+            gel = Scene(685.0, 1.6, 0.25e-3, xi, wear, 2.5)
+            force = prepare(gel, (name,), {{name: box[name]}}, "table", law=law)
+            values = np.random.default_rng(1).uniform(*box[name], 20000)
+            sys.modules.pop("numba", None)
+            plain = force(values), force(values.astype(np.float32), outside="nan")
+            import numba
+            compiled = force(values), force(values.astype(np.float32), outside="nan")
+            for one, other in zip(plain, compiled):
+                assert np.array_equal(one, other, equal_nan=True), (name, law, xi, wear)
+print("alike")
+"""
+
+
+@pytest.mark.skipif(find_spec("numba") is None, reason="numba is not installed")
+def test_with_numba_the_digits_are_the_same():
+    """In a process of its own, as numba changes how all tables are evaluated."""
+    code = BOTH.format(box=[BOX[name] for name in NAMES])
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("alike\n", "")
 
 
 def test_arguments_are_given_once():
