@@ -16,6 +16,7 @@ from surrogate.basics.records import number
 from surrogate.contact.fitted import PROJECTED
 from surrogate.errors import DomainError, InputError
 from surrogate.prepared.inverse import inverse, is_monotonic
+from surrogate.prepared.namespaces import evaluate_elsewhere, is_foreign
 from surrogate.prepared.plan import ARC, LOAD, Plan
 from surrogate.scene import NAMES, QUANTITIES
 
@@ -147,11 +148,13 @@ class ForceFunction:
             raise InputError(
                 f"outside must be 'raise' or 'nan', but is {outside!r}; give one of them."
             )
-        namespace = _other_namespace(arguments)
-        if namespace is not None:
-            from surrogate.prepared.namespaces import evaluate_elsewhere
-
-            return evaluate_elsewhere(self, namespace, arguments, outside)
+        if any(map(is_foreign, arguments)):
+            if out is not None:
+                raise InputError(
+                    "out must be left out with arrays of another library, which has its own; "
+                    "give arrays of numpy, or no out."
+                )
+            return evaluate_elsewhere(self, arguments, outside)
         single = _is_single(arguments)
         checked, wrong = self._checked(arguments, outside)
         broadcast_shape(self.varying, tuple(checked))
@@ -294,16 +297,6 @@ class ForceFunction:
         known = self.relative_error == self.relative_error
         error = f"up to {100.0 * self.relative_error:.2g} %" if known else "unknown"
         return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; error {error}"
-
-
-def _other_namespace(values: list[Any]) -> Any:
-    """Return the Array API of the first array that is not numpy's, or None."""
-    for value in values:
-        if not isinstance(value, (float, int, np.ndarray, np.generic)):
-            space = getattr(value, "__array_namespace__", None)
-            if space is not None:
-                return space()
-    return None
 
 
 def _is_single(values: list[Any]) -> bool:

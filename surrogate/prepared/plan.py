@@ -8,7 +8,7 @@ one alpha the table is a `Line`; where also tau_w, xi and mu are fixed, both lin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -100,8 +100,9 @@ class Plan:
         if len(self.varying) != 1 or self.varying == (ALPHA,):
             return None
         (name,) = self.varying
-        constant = sum(c for c, names in self._products() if name not in names)
-        slope = sum(c for c, names in self._products() if name in names)
+        products = [(self._product(*term, name), name in term[1]) for term in self.free]
+        constant = sum(value for value, contains in products if not contains)
+        slope = sum(value for value, contains in products if contains)
         factors = {term: self._product(2.0, names, name) for term, names in FACTORS.items()}
         if name in (XI, WEAR):
             log_g = log(self._product(1.0, (GAMMA,)) / self._product(1.0, (MU, RADIUS)))
@@ -143,16 +144,16 @@ class Plan:
         first, last = (g * float(np.exp(-touch)) for g in self.g_ends())
         return -1 if last < 1.0 - ROUNDING else 1 if first > 1.0 + ROUNDING else 0
 
-    def _products(self) -> Iterator[tuple[float, tuple[str, ...]]]:
-        """Yield what the table does not give, as products without the quantity that varies."""
-        form, (name,) = self.form, self.varying
+    @cached_property
+    def free(self) -> tuple[tuple[float, tuple[str, ...]], ...]:
+        """What the table does not give: coefficients of products of quantities, by their names."""
+        form = self.form
         terms: list[tuple[float, tuple[str, ...]]] = [(1.0, (GAMMA,))]
         if ARC not in self.of_table:
             terms += [(form.arc_2, FACTORS[ARC])]
         if LOAD not in self.of_table:
             terms += [(form.load_2, FACTORS[LOAD]), (form.load_2_slope, (XI, GAMMA))]
-        for coefficient, names in terms:
-            yield self._product(coefficient, names, name), names
+        return tuple(term for term in terms if term[0])
 
     def _product(self, coefficient: float, names: Sequence[str], without: str = "") -> float:
         for name in names:
