@@ -6,6 +6,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
+import imagesize  # noqa: E402
+from docutils import nodes  # noqa: E402
 from pygments.lexers.special import TextLexer  # noqa: E402
 
 import surrogate  # noqa: E402
@@ -22,6 +24,7 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinxcontrib.katex",
 ]
 exclude_patterns = ["_build"]
 templates_path = []
@@ -38,7 +41,13 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 
+# Formulas without a network: by the script in the package, which writes MathML that browsers draw.
+html_math_renderer = "katex"
+katex_options = "output: 'mathml'"
+katex_css_path = "katex-math.css"
+
 html_theme = "furo"
+html_extra_path = ["_gallery/explorer-app.html"]  # made by scripts/gallery
 html_title = f"wirecut {release}"
 html_copy_source = False
 html_show_sphinx = False
@@ -80,7 +89,19 @@ def add_reference(app: object, page: str, source: list[str]) -> None:
         source[0] += "\n" + reference()
 
 
+COLUMN = 1100  # pixels, more than a figure of one column has
+
+
+def keep_columns(app: object, page: object) -> None:
+    """Show figures of one column as wide as a column, not blown up to the width of the page."""
+    for image in page.findall(nodes.image):  # type: ignore[attr-defined]
+        file = ROOT / "docs" / image["uri"]
+        if file.suffix == ".png" and 0 < imagesize.get(file)[0] < COLUMN:
+            image["width"] = "28em"
+
+
 def setup(app: object) -> None:
-    """Ask Sphinx to call `add_reference`, and to print tables as they are."""
+    """Ask Sphinx to call `add_reference` and `keep_columns`, and to print tables as they are."""
+    app.connect("doctree-read", keep_columns)  # type: ignore[attr-defined]
     app.add_lexer("csv", TextLexer)  # type: ignore[attr-defined]
     app.connect("source-read", add_reference)  # type: ignore[attr-defined]

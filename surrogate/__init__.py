@@ -52,6 +52,7 @@ if TYPE_CHECKING:
         power_law_exponent,
         relative_force,
     )
+    from surrogate.explorer.page import write_explorer
     from surrogate.identification.experiment_design import Design, design_radii
     from surrogate.identification.figure import plot_identification
     from surrogate.identification.fit import Identification, identify
@@ -126,6 +127,7 @@ __all__ = [
     "steady_force",
     "transition_radius",
     "wear_transition_radius",
+    "write_explorer",
 ]
 
 # Loaded at first use, so that nobody waits for what is not needed.
@@ -144,6 +146,7 @@ _MODULES = {
     "general_force high_toughness_force low_toughness_dissipation "
     "low_toughness_force power_law_dissipation power_law_exponent "
     "relative_force",
+    "explorer.page": "write_explorer",
     "identification.experiment_design": "Design design_radii",
     "identification.figure": "plot_identification",
     "identification.fit": "Identification identify",

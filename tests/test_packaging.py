@@ -70,6 +70,8 @@ def test_wheel(checkout, tmp_path):
         names = set(archive.namelist())
         archive.extractall(site)
     assert {"surrogate/py.typed", "surrogate/models/paam-material.json"} <= names
+    page = ROOT / "surrogate" / "explorer" / "page"
+    assert {f"surrogate/explorer/page/{part.name}" for part in page.iterdir()} <= names
     assert not [name for name in names if name.startswith(("tests", "models", "scripts"))]
     assert not [name for name in names if name.endswith(".h5")]
     assert wheel.stat().st_size < 1_000_000

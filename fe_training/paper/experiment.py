@@ -119,7 +119,7 @@ class Experiment:
             ("wire_radius", "m"): radius,
             ("eq13", "N/m"): self.paper.predict(radius),
         }
-        upper = force_model(self.model).accepted(False)[0].upper
+        upper = force_model(self.model).highest_g(self.alpha)
         for mode, (style, colour) in zip(self.modes, _LINES, strict=False):
             inside = mode.toughness / (self.ours.shear_modulus * radius) <= upper
             force = np.full(radius.size, np.nan)

@@ -228,6 +228,7 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     axes = panels(figure, len(curves))[0]
     shades = ("#56B4E9", "#0072B2", "#001f3f")
     parts: list[Columns] = []
+    top = max(_highest_dissipation(one) for one in curves)
     for ax, one in zip(axes, curves, strict=True):
         g = np.geomspace(one.g.min(), one.g.max(), 100)
         for ratio, colour, marker in zip(RATIOS, shades, ("o", "s", "^"), strict=True):
@@ -239,7 +240,7 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
             high = g[g >= 1.0]
             ax.plot(high, high ** TABLE_1[one.alpha], "k--", lw=0.9)
         ax.set_title(rf"$\alpha$ = {one.alpha:g}", fontsize=MEDIUM)
-        ax.set(xscale="log", yscale="log", ylim=(0.8, 300.0))
+        ax.set(xscale="log", yscale="log", ylim=(0.8, 1.5 * top))
         label_axes(ax, TOUGHNESS, r"$F_d/(\xi\mu R_w T)$ [-]")
         ax.label_outer()
     handles = []
@@ -251,6 +252,14 @@ def dissipation_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     handles += axes[0].plot([], [], "k--", lw=0.9, label="Eq. (9), Table 1")
     legend_over(figure, handles, 3)
     return {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
+
+
+def _highest_dissipation(one: Curve) -> float:
+    """Return the highest that is drawn of a curve: finite elements, Eq. (13) or Eq. (9)."""
+    last, ratio = float(one.g.max()), max(RATIOS)
+    elements = float(np.max(2.0 * (ratio * one.arc + one.normal_load)))
+    power = last ** TABLE_1[one.alpha] if one.alpha in TABLE_1 else 0.0
+    return max(elements, last + 4.0 + 4.0 * ratio, power)
 
 
 def _dissipation_columns(one: Curve, ratio: float, force: Floats) -> Columns:

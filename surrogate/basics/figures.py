@@ -256,12 +256,25 @@ LARGEST_SHOWN = 1e100
 
 
 def legend_above(
-    ax: Axes, columns: int, handles: list[Any] | None = None, left: float = -0.1
+    ax: Axes,
+    columns: int,
+    handles: list[Any] | None = None,
+    left: float = -0.1,
+    inside: tuple[float, float] | None = None,
 ) -> None:
-    """Put the legend above the axes, where no data can be, from a fraction of their width on."""
+    """Put the legend above the axes, where no data can be, from a fraction of their width on.
+
+    Axes of somebody else's figure, which nothing makes room in, have it inside: above it would be
+    cut off, or cover another panel. There its upper left corner is at a fraction of the axes, or
+    where it covers least.
+    """
     if handles is None:
         handles = ax.get_legend_handles_labels()[0]
     if not handles or not picture_form().legend:
+        return
+    if ax.figure.canvas.figure.get_layout_engine() is None:
+        place: Any = {"loc": "upper left", "bbox_to_anchor": inside} if inside else {"loc": "best"}
+        ax.legend(handles=handles, fontsize=SMALL, framealpha=0.85, handlelength=1.6, **place)
         return
     ax.legend(
         handles=handles,

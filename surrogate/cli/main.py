@@ -12,6 +12,7 @@ from typing import Any
 
 from surrogate.basics.command import OneLineParser, complete, run_command
 from surrogate.basics.picture_form import pictures_as
+from surrogate.cli import explore as cli_explore
 from surrogate.cli import export as cli_export
 from surrogate.cli import map as cli_map
 from surrogate.cli.common import print_answer, print_record
@@ -45,6 +46,7 @@ Exit code: 0, or 2 after bad input, or 3 where a printed warning says not to use
 _DOUBTED = {
     "force": "(a quantity that is hardly that of a cut, such as a wire 0.4 m thick).",
     "regime": "(a quantity that is hardly that of a cut, such as a wire 0.4 m thick).",
+    "explore": "(a quantity is hardly that of a cut, or the cuts do not settle the solid).",
     "map": "(what is fixed is hardly that of a cut, such as a modulus of 0.3 Pa).",
     "identify": "(a measured quantity is hardly that of a cut, or a record has no steady force).",
     "steady": "(records without a steady force).",
@@ -58,6 +60,7 @@ _DESCRIPTIONS = {
     "design": "Which wires to buy and how often to cut with each, and how exact that will be.",
     "regime": "Which term dominates the force of each wire, and where the wire cuts.",
     "map": cli_map.DESCRIPTION,
+    "explore": cli_explore.DESCRIPTION,
     "export": cli_export.DESCRIPTION,
     "models": "The force models that --model accepts.",
     "doctor": "What is installed, whether the shipped files are whole, and a self-test.",
@@ -75,6 +78,9 @@ I want to know a force, and what it is made of:
 
 I want a map of what dominates:
   wirecut map --preset gel --out map.pdf
+
+I want to move quantities and see what happens, in a browser:
+  wirecut explore --out explorer.html
 
 To try it at once, with the gel of the paper:
   wirecut identify --example
@@ -145,6 +151,7 @@ example:
     --wear-strength 7.75kPa --wire-diameter 50um 0.5mm
 """,
     "map": f"{_UNITS}\n\n{cli_map.EXAMPLES}",
+    "explore": f"{_UNITS}\n\n{cli_explore.EXAMPLES}",
     "export": f"{_UNITS}\n\n{cli_export.EXAMPLES}",
     "models": """\
 example:
@@ -242,13 +249,14 @@ def _parser() -> argparse.ArgumentParser:
         ("design", add_design_options, run_design),
         ("regime", add_regime_options, run_regime),
         ("map", lambda command: cli_map.add_options(command), run_map),
+        ("explore", cli_explore.add_explore_options, cli_explore.run_explore),
         ("export", cli_export.add_export_options, cli_export.run_export),
         ("models", lambda command: None, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")
         add_options(command)
-        if name in ("force", "regime", "map"):
+        if name in ("force", "regime", "map", "explore"):
             add_diameters_option(command)
         if name in ("force", "steady", "identify", "map"):
             add_picture_options(command)

@@ -127,7 +127,7 @@ def plot_force(
     ax.set_xlim(0.0, across * radius[-1])
     ax.set_ylim(0.0, _top(total))
     label_at_right(ax, labels)
-    legend_above(ax, 2, handles)
+    legend_above(ax, 2, handles, inside=(0.0, 0.86))  # below the words on what is fixed
     return ax
 
 

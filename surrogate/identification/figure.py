@@ -326,14 +326,18 @@ def _draw_measurements(ax: Axes, fit: Identification, label: str) -> Any:
 
 
 def _draw_fit(ax: Axes, fit: Identification, radius: NDArray[np.float64]) -> Iterator[Any]:
-    line = fit.predict(radius)
+    line, (low, high) = fit.predict(radius), fit.band(radius)
+    if radius[0] > 0.0 and not np.any(fit.cuts.friction_coefficient):  # without it Gamma_o is left
+        ends = np.ravel(fit.profile.toughness_intervals) if fit.profile else np.array([])
+        if ends.size:
+            radius, line = np.append(0.0, radius), np.append(fit.toughness, line)
+            low, high = np.append(ends.min(), low), np.append(ends.max(), high)
     label = (
         rf"$\Gamma_o$ = {fit.toughness:.3g} J/m$^2$, "
         rf"$\tau_w$ = {1e-3 * fit.wear_strength:.3g} kPa"
     )
     yield from ax.plot(1e3 * radius, line, color=RED, lw=1.2, label=label)
     ax.plot([0.0], [fit.toughness], "o", ms=4, mfc="white", mec=RED, zorder=4, clip_on=False)
-    low, high = fit.band(radius)
     if np.any(high - low > 1e-9 * np.abs(line)):  # neither nan nor rounding
         label = f"{100.0 * fit.confidence:.3g} % band"
         yield ax.fill_between(1e3 * radius, low, high, color=RED, alpha=0.18, lw=0, label=label)

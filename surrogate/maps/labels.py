@@ -189,7 +189,7 @@ def name_regions(
     root = ax.figure.canvas.figure
     root.draw_without_rendering()
     window = ax.get_window_extent()
-    blocked = np.zeros((GRID, GRID), dtype=bool)
+    blocked = _under_legend(ax, window)
     for reach, drawn in ((1, lines), (_AWAY, marks)):
         for line in drawn:
             x, y = _fraction(made.x, line[:, 0]), _fraction(made.y, line[:, 1])
@@ -232,6 +232,22 @@ def name_regions(
             text.remove()
             nameless.append(str(name))
     return nameless
+
+
+def _under_legend(ax: Axes, window: Any) -> NDArray[np.bool_]:
+    """Return which cells a legend inside the axes covers; none where it stands above them."""
+    covered = np.zeros((GRID, GRID), dtype=bool)
+    legend = ax.get_legend()
+    if legend is not None:
+        box = legend.get_window_extent()
+        columns = (np.array([box.x0, box.x1]) - window.x0) / window.width * GRID
+        rows = (np.array([box.y0, box.y1]) - window.y0) / window.height * GRID
+        (left, right), (low, high) = (
+            np.clip([np.floor(one[0]), np.ceil(one[1])], 0, GRID).astype(int)
+            for one in (columns, rows)
+        )
+        covered[low:high, left:right] = True
+    return covered
 
 
 def _halo() -> Any:

@@ -6,40 +6,68 @@ those of the spline whose third derivative does not jump at the last nodes but o
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from surrogate.contact.grid import Grid
 from surrogate.prepared.dialects import Dialect
-from surrogate.prepared.statements import COEFFICIENTS
 
 __all__ = ["table_part"]
 
 
-def table_part(table: Any, terms: tuple[str, ...], dialect: Dialect) -> str:
-    """Return the functions of g and alpha that the table gives, as a part of a program."""
-    names = dict(zip(COEFFICIENTS, table.rubbing, strict=True))
+def table_part(table: Any, functions: Mapping[str, str], dialect: Dialect) -> str:
+    """Return functions of g and alpha that the table gives, as a part of a program.
+
+    Parameters
+    ----------
+    table : TableModel
+        The table.
+    functions : mapping of str to str
+        By the name in the program, in capitals, that of the table.
+    dialect : Dialect
+        The language.
+    """
     nodes = {
-        COEFFICIENTS[term]: [float(x) for side in table.table.nodes[names[term]] for x in side.flat]
-        for term in terms
+        name: [float(x) for side in table.table.nodes[function] for x in side.flat]
+        for name, function in functions.items()
     }
     arrays = "\n".join(_array(dialect, name, values) for name, values in nodes.items())
     grid = table.table.grid
     text = _TEXT[dialect.name]
     head, of_one = text.split("<<each>>")
     numbers = _numbers(grid, table.limits, dialect)
-    functions = "".join(
+    each = "".join(
         of_one.replace("<<NAME>>", name).replace("<<name>>", name.lower()) for name in nodes
     )
-    filled = head.replace("<<arrays>>", arrays) + functions
+    filled = head.replace("<<arrays>>", arrays) + each
     for key, value in numbers.items():
         filled = filled.replace(f"<<{key}>>", value)
     return filled.strip("\n")
 
 
 def _array(dialect: Dialect, name: str, values: list[float]) -> str:
+    if dialect.name == "javascript" and (short := _single(values)):
+        return dialect.numbers(f"{name}_NODES", short).removesuffix(";") + ".map(Math.fround);"
     if not dialect.first:
         return dialect.numbers(f"{name}_NODES", values)
     return f"function v = {name.lower()}_nodes()\n{dialect.numbers('v', values)}\nend\n"
+
+
+def _single(values: list[float]) -> list[Any]:
+    """Return numbers of single precision, which half the digits tell; nothing if some are not."""
+    short = [np.float32(x) for x in values]
+    written = [_Written(str(x)) for x in short]
+    exact = [float(np.float32(float(x))) for x in written] == values
+    return list(written) if exact else []
+
+
+class _Written(str):
+    """A number as it is to be written."""
+
+    def __repr__(self) -> str:
+        return str(self)
 
 
 def _numbers(grid: Grid, limits: Any, dialect: Dialect) -> dict[str, str]:
@@ -165,23 +193,37 @@ function hermite(t, a, b, c, d) {
   return a + t*(c + t*(3*(b - a) - 2*c - d + t*(2*(a - b) + c + d)));
 }
 
+function hermiteSlope(t, a, b, c, d) {
+  return c + t*(2*(3*(b - a) - 2*c - d) + 3*t*(2*(a - b) + c + d));
+}
+
 function logTouch(row) { return <<touch>>; }
 
-function table([v, g1, a1, m], g, alpha) {
+function cellsPerLogG(x, touch) {
+  return x < 0 ? <<short_float>>/(touch - (<<low_g>>)) : <<after>>;
+}
+
+function table([v, g1, a1, m], g, alpha, alongG = hermite) {
   const row = Math.log(alpha), touch = logTouch(row), x = Math.log(g) - touch;
-  let t = (x < 0 ? <<short_float>>/(touch - (<<low_g>>)) : <<after>>)*x + <<short_float>>;
+  let t = cellsPerLogG(x, touch)*x + <<short_float>>;
   let s = (row - (<<low_alpha>>))*<<per_alpha>>;
   const i = Math.max(0, Math.min(<<last>>, Math.floor(t)));
   const j = Math.max(0, Math.min(<<last_column>>, Math.floor(s)));
   t -= i; s -= j;
   const k = (i + (i >= <<short>> ? 1 : 0))*<<columns>> + j, n = k + <<columns>>;
-  return hermite(t,
+  return alongG(t,
     hermite(s, v[k], v[k+1], a1[k], a1[k+1]), hermite(s, v[n], v[n+1], a1[n], a1[n+1]),
     hermite(s, g1[k], g1[k+1], m[k], m[k+1]), hermite(s, g1[n], g1[n+1], m[n], m[n+1]));
 }
+
+// derivative by ln g of a function of the table
+function byLogG(of, g, alpha) {
+  const touch = logTouch(Math.log(alpha));
+  return of(g, alpha, hermiteSlope)*cellsPerLogG(Math.log(g) - touch, touch);
+}
 <<each>>
 const <<NAME>>_SPLINES = splines(<<NAME>>_NODES);
-function <<name>>(g, alpha) { return table(<<NAME>>_SPLINES, g, alpha); }
+function <<name>>(g, alpha, alongG) { return table(<<NAME>>_SPLINES, g, alpha, alongG); }
 """
 
 _PYTHON = '''

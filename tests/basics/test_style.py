@@ -58,3 +58,20 @@ def test_one_panel_on_request_and_repeats_that_do_not_hide_each_other(tmp_path):
     assert one.count('id="axes_') == 1
     assert "(b)" in two
     assert "(a)" not in one
+
+
+def test_a_legend_in_somebody_elses_figure_stands_inside_its_axes():
+    pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+
+    from surrogate.basics.figures import legend_above
+
+    for layout, inside in (("constrained", False), (None, True)):
+        figure = Figure(figsize=(6.0, 3.0), layout=layout)
+        ax = figure.subplots(1, 2)[0]
+        ax.plot([0.0, 1.0], [0.0, 1.0], label="a line")
+        legend_above(ax, 2)
+        figure.draw_without_rendering()
+        legend, window = ax.get_legend().get_window_extent(), ax.get_window_extent()
+        assert bool(legend.y1 <= window.y1) is inside
+        assert legend.y1 <= figure.bbox.y1

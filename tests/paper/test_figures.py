@@ -118,6 +118,10 @@ def test_figure_4_is_eq_s2_beside_eq_13_and_eq_9(data):
     )
     np.testing.assert_allclose(columns["Eq_9", ""][chosen], one.g**0.96, rtol=1e-14)
     assert [ax.get_title() for ax in drawn_on.axes] == [rf"$\alpha$ = {a}" for a in (2, 5, 9)]
+    for ax in drawn_on.axes:  # nothing leaves the picture at its top
+        assert ax.get_ylim()[1] > max(
+            line.get_ydata().max() for line in ax.lines if line.get_xdata().size
+        )
 
 
 def test_table_1_is_a_fit_over_named_ranges(data):

@@ -94,6 +94,9 @@ OWN = {
     "load_models": {"path": None},
     "contact_functions": {"rtol": None},
     "plot_force": {"ax": None, "thickness": None},
+    "write_explorer": {
+        **{"file": str(RECORD.with_name("explorer.html")), "cuts": None, "diameters": False},
+    },
     "prepare": {
         **{"fixed": Scene(**SCENE), "varying": ("wire_radius",), "rtol": None},
         "ranges": {"wire_radius": (1e-4, 1e-3)},

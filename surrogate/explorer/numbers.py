@@ -1,0 +1,122 @@
+"""What the page is told: ends and errors of the table, quantities with their units, the start."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from surrogate.choosing.candidates import OUTSIDE, Candidates
+from surrogate.contact.fitted import TERMS_OF_LAW
+from surrogate.cutting.regimes import DOMINANT_SHARE, PARTS
+from surrogate.reading import plausibility
+from surrogate.reading.measurements import Measurements
+from surrogate.reading.plausibility import Plausible
+from surrogate.scene import NAMES, Scene
+from surrogate.version import __version__
+
+__all__ = ["GEL", "functions_of", "page_numbers"]
+
+MU, GAMMA, RADIUS, XI, WEAR, ALPHA = NAMES
+
+GEL = Scene(685.0, 1.6, 0.25e-3, wear_strength=7750.0)
+"""The gel of the paper, which the page shows where nothing else is told."""
+
+KEYS = dict(zip(NAMES, ("mu", "Gamma_o", "R_w", "xi", "tau_w", "alpha"), strict=True))
+"""The names that the address of the page has for the quantities of a scene."""
+
+_SHOWN: tuple[tuple[str, str, str, str, float, Plausible | None], ...] = (
+    (MU, "μ", "shear modulus", "kPa", 1e3, plausibility.SHEAR_MODULUS),
+    (GAMMA, "Γ_o", "cleavage toughness", "J/m²", 1.0, plausibility.TOUGHNESS),
+    (WEAR, "τ_w", "wear strength", "kPa", 1e3, plausibility.WEAR_STRENGTH),
+    (XI, "ξ", "friction coefficient", "", 1.0, plausibility.FRICTION),
+    (ALPHA, "α", "stiffening exponent", "", 1.0, None),
+    (RADIUS, "R_w", "wire radius", "mm", 1e-3, plausibility.RADIUS),
+)
+
+
+def functions_of(known: Candidates) -> tuple[str, ...]:
+    """Return the functions of the table that the laws of dissipation follow."""
+    there = known.fitted.table.nodes
+    return tuple(name for terms in TERMS_OF_LAW.values() for name in terms if name in there)
+
+
+def page_numbers(
+    known: Candidates, scene: Scene, cuts: Measurements | None, law: str, diameters: bool
+) -> dict[str, Any]:
+    """Return what the page is told.
+
+    Parameters
+    ----------
+    known : Candidates
+        The models in use.
+    scene : Scene
+        What the page shows first, of single numbers.
+    cuts : Measurements or None
+        What the page draws over its curves.
+    law : str
+        The law that it shows first.
+    diameters : bool
+        Whether it shows diameters of wires instead of radii.
+    """
+    limits, bounds = known.limits, known.bounds
+    return {
+        "version": __version__,
+        "data_date": data_date(known),
+        "domain": {"g": limits.g, "alpha": limits.alpha, "highest": limits.highest},
+        "bounds": {
+            "g": list(bounds.g),
+            "alpha": list(bounds.alpha),
+            "errors": {
+                name: [float(x) for x in bounds.errors[OUTSIDE][name].flat]
+                for name in functions_of(known)
+            },
+        },
+        "threshold": DOMINANT_SHARE,
+        "transition": PARTS[0],
+        "parts": PARTS[1:],
+        "quantities": [_quantity(*each, alpha=limits.alpha) for each in _SHOWN],
+        "start": {
+            **{KEYS[name]: float(value) for name, value in zip(NAMES, scene.values(), strict=True)},
+            "law": law,
+            "diameters": diameters,
+            "cuts": _cuts(cuts),
+        },
+    }
+
+
+def data_date(known: Candidates) -> str:
+    """Return the day on which the finite elements were computed, or "unknown"."""
+    told = known.fitted.about.get("provenance", {})
+    return str(told.get("data_date", "unknown"))[:10]
+
+
+def _quantity(
+    name: str,
+    symbol: str,
+    words: str,
+    unit: str,
+    size: float,
+    plausible: Plausible | None,
+    alpha: tuple[float, float],
+) -> dict[str, Any]:
+    return {
+        "key": KEYS[name],
+        "symbol": symbol,
+        "words": words,
+        "unit": unit,
+        "size": size,
+        "log": name not in (XI, ALPHA),
+        "ends": alpha if plausible is None else (plausible.low, plausible.high),
+        "plausible": None if plausible is None else (plausible.low, plausible.high),
+    }
+
+
+def _cuts(cuts: Measurements | None) -> list[tuple[float, float, float | None]]:
+    if cuts is None:
+        return []
+    stds = np.full(cuts.force.shape, np.nan) if cuts.force_std is None else cuts.force_std
+    return [
+        (float(radius), float(force), float(std) if std > 0.0 else None)
+        for radius, force, std in zip(cuts.wire_radius, cuts.force, stds, strict=True)
+    ]

@@ -1,0 +1,169 @@
+// The force over the radius of the wire: its parts on one another, and the other laws beside.
+
+const CURVE = 160;
+
+// A round end of the axis that shows the wire and the cuts, and does not tremble as they move.
+function rightEnd(state) {
+  const largest = Math.max(1.6*state.R_w, ...state.cuts.map(([radius]) => 1.08*radius));
+  return niceStep(largest);
+}
+
+// The forces of a law at radii that the table covers.
+function curveOf(law, state, right, count = CURVE) {
+  const [thinnest, thickest] = rubs(state) ? radiiOf(state) : [0, Infinity];
+  const low = Math.max(thinnest*(1 + 1e-9), 1e-6*right), high = Math.min(thickest*(1 - 1e-9), right);
+  if (!(low < high) || (rubs(state) && !holdsAlpha(state.alpha))) return [];
+  const radii = Array.from({length: count}, (_, i) => low + (high - low)*i/(count - 1));
+  const touch = state.Gamma_o/(state.mu*touchOf(state.alpha));
+  radii.push(touch*(1 - 1e-9), touch*(1 + 1e-9));  // A* jumps there
+  return radii.filter((r) => r >= low && r <= high).sort((a, b) => a - b)
+    .map((radius) => ({radius, ...forceOf(law, withRadius(state, radius))}));
+}
+
+// A law that is as many times higher leaves the picture, so that the parts stay to be seen.
+const HIGHEST_OTHER = 2.5;
+
+function topOf(main, curves, state) {
+  const most = (forces) => Math.max(1e-12, ...forces.filter(Number.isFinite));
+  const own = most([...main.map((one) => one.total), ...state.cuts.map(([, force, std]) => force + (std ?? 0))]);
+  const all = most(curves.flat().map((one) => one.total));
+  return niceTop(1.05*(all <= HIGHEST_OTHER*own || !main.length ? Math.max(all, own) : 1.2*own));
+}
+
+function niceTop(value) {
+  const step = niceStep(value/5);
+  return step*Math.ceil(value/step*(1 - 1e-9));
+}
+
+function drawParts(frame, curve, x, y) {
+  let below = curve.map(() => 0);
+  const names = [];
+  for (const part of DATA.parts) {
+    const above = curve.map((one, i) => below[i] + one[part]);
+    const up = curve.map((one, i) => [x.to(one.radius), y.to(above[i])]);
+    const down = curve.map((one, i) => [x.to(one.radius), y.to(below[i])]).reverse();
+    if (curve.some((one) => one[part] > 0)) {
+      frame.append(svg("path", {d: pathOf([...up, ...down], true), class: `fill-${part}`}));
+      const i = Math.floor(0.8*(curve.length - 1)), middle = y.to(0.5*(above[i] + below[i]));
+      if (y.to(below[i]) - y.to(above[i]) > 15) {
+        names.push(note(part, {x: x.to(curve[i].radius), y: middle + 4, "text-anchor": "middle"}));
+      }
+    }
+    below = above;
+  }
+  return names;
+}
+
+// The band of the known error, and the line of the force.
+function drawTotal(frame, curve, x, y) {
+  const known = curve.filter((one) => one.error > 0);
+  const side = (sign) => known.map((one) => [x.to(one.radius), y.to(one.total*(1 + sign*one.error))]);
+  if (known.length > 1) {
+    frame.append(svg("path", {d: pathOf([...side(1), ...side(-1).reverse()], true), class: "band"}));
+  }
+  drawLine(frame, curve, x, y, "total");
+}
+
+// The line of a force, dashed where it is unknown how far it may be off.
+function drawLine(frame, curve, x, y, kind) {
+  const runs = [];
+  curve.forEach((one, i) => {
+    const known = Number.isFinite(one.error);
+    if (!i || known !== runs[runs.length - 1].known) runs.push({known, points: []});
+    runs[runs.length - 1].points.push([x.to(one.radius), y.to(one.total)]);
+  });
+  for (const {known, points} of runs) {
+    frame.append(svg("path", {d: pathOf(points), class: `${kind}${known ? "" : " unsure"}`}));
+  }
+}
+
+// The other laws as lines, each with its name at its end.
+function drawOthers(frame, others, x, y, taken) {
+  others.forEach(({law, curve}, i) => {
+    if (!curve.length) return;
+    drawLine(frame, curve, x, y, `other other-${i}`);
+    const end = y.to(curve[curve.length - 1].total);
+    taken.push([Math.max(y.end + 2, end), end < y.end ? `${law.title} ▴` : law.title, `other-${i}`]);
+  });
+}
+
+// Names at the right ends of lines, a line's height apart.
+function endLabels(frame, labels, x) {
+  let least = -Infinity;
+  for (const [at, words, kind] of [...labels].sort((a, b) => a[0] - b[0])) {
+    const y = Math.max(at, least + 15);
+    least = y;
+    frame.append(lettered(words, {x: x.end + 5, y: y + 4, class: `name ${kind}`}));
+  }
+}
+
+function drawTransition(frame, radius, x, y) {
+  if (!(x.to(radius) < x.end)) return;
+  frame.append(svg("path", {d: `M${x.to(radius)} ${y.start}V${y.end}`, class: "touch"}));
+  frame.append(note("transition radius", {x: x.to(radius) + 5, y: y.end + 14, class: "small"}));
+}
+
+function drawCuts(frame, state, x, y) {
+  for (const [radius, force, std] of state.cuts) {
+    const [px, py] = [x.to(radius), y.to(force)];
+    if (std) frame.append(svg("path", {d: `M${px} ${y.to(force - std)}V${y.to(force + std)}`, class: "bar"}));
+    frame.append(svg("rect", {x: px - 4, y: py - 4, width: 8, height: 8, class: "cut"}));
+  }
+}
+
+function drawForces(plot, state, size, change) {
+  const {width, height} = size, frame = svg("g"), across = (state.diameters ? 2e3 : 1e3);
+  resize(plot, size);
+  const right = rightEnd(state), law = lawOf(state.law);
+  const valid = !refusalOfMaterial(state);
+  const curves = valid ? LAWS.map((one) => curveOf(one, state, right)) : [];
+  const main = curves[LAWS.indexOf(law)] ?? [];
+  const top = topOf(main, curves, state);
+  const inner = linearScale(across*(Number.isFinite(right) && right > 0 ? right : 1e-3), 58, width - 80);
+  const x = {...inner, to: (radius) => inner.to(across*radius), from: (px) => inner.from(px)/across};
+  const y = linearScale(top, height - 48, 12);
+  const box = {x: x.start, y: y.end, width: x.end - x.start, height: y.start - y.end};
+  frame.append(svg("rect", {...box, class: "paper"}));
+  const lines = svg("g", {"clip-path": plot.inside}), labels = [];
+  frame.append(svg("clipPath", {id: plot.inside.slice(5, -1)}, svg("rect", {...box})), lines);
+  const names = drawParts(lines, main, x, y);
+  drawTotal(lines, main, x, y);
+  const others = LAWS.map((one, i) => ({law: one, curve: curves[i] ?? []})).filter((one) => one.law !== law);
+  drawOthers(lines, others, x, y, labels);
+  if (main.length) labels.push([y.to(main[main.length - 1].total), law.title, "main"]);
+  if (valid && rubs(state)) drawBeyond(frame, main, x, y, plot.beyond);
+  const tick = axes({...inner}, y, state.diameters ? "wire diameter D [mm]" : "wire radius R_w [mm]",
+    "F_ss/T [N/m]");
+  frame.append(tick, ...names);
+  if (main.length) drawTransition(frame, transitionOf(law, state).radius, x, y);
+  endLabels(frame, labels, x);
+  drawCuts(frame, state, x, y);
+  placeOnCurve(plot, state, law, x, y);
+  plot.move = (px) => change({R_w: round4(clamped(x.from(px), right/500, right))});
+  plot.step = (over, up, by) => change({R_w: round4(state.R_w*1.02**(by*(over || up)))});
+  plot.content.replaceChildren(frame);
+}
+
+// Why there is no curve at all, whatever the wire; an empty text where there is one.
+const refusalOfMaterial = (state) => {
+  const wireInside = rubs(state) ? radiiOf(state)[0]*(1 + 1e-9) : 1;
+  return Number.isFinite(wireInside) && wireInside > 0 ? refusal(withRadius(state, wireInside)) : refusal(state);
+};
+
+// What the table does not cover, thin wires and thick ones.
+function drawBeyond(frame, curve, x, y, fill) {
+  const place = (from, to) => frame.append(svg("rect", {
+    x: from, y: y.end, width: to - from, height: y.start - y.end, fill,
+  }));
+  if (!curve.length) return place(x.start, x.end);
+  const first = x.to(curve[0].radius), last = x.to(curve[curve.length - 1].radius);
+  if (first > x.start + 1) place(x.start, first);
+  if (last < x.end - 1) place(last, x.end);
+}
+
+function placeOnCurve(plot, state, law, x, y) {
+  const force = refusal(state) ? null : forceOf(law, state);
+  const radius = clamped(Number.isNaN(state.R_w) ? 0 : state.R_w, 0, x.from(x.end));
+  placeHandle(plot, [x.to(radius), force ? y.to(force.total) : y.start], state,
+    `${wire(state, state.R_w)}, ${force ? `${digits(force.total)} N/m` : "no force"}`, !force);
+}

@@ -1,0 +1,152 @@
+// What the page computes: the functions A, B, A* and B* are the exported table's, see `TABLE`.
+
+// The laws of dissipation; the functions are the table's, by the names that Python uses.
+// `factor` multiplies friction and wear; `errorKnown` says where the bounds of the functions are
+// bounds of the force.
+const LAWS = [
+  {
+    name: "projected", title: "projected", equation: "Eq. (S2)",
+    arc: "arc", load: "normal_load", factor: () => 1, errorKnown: () => true,
+    says: "the paper’s Eq. (S2): the shear on the wire counts by its part along the cut",
+  },
+  {
+    name: "slip", title: "slip", equation: "balance of energy",
+    arc: "slip_arc", load: "slip_load", factor: () => 1, errorKnown: (g, touch) => g < touch,
+    says: "the balance of energy to first order in wear and friction: shear times slip",
+    unknown: "the crack tip touches the wire, where the force depends on how sharp the tip is",
+  },
+];
+
+const lawOf = (name) => LAWS.find((law) => law.name === name) ?? LAWS[0];
+
+const touchOf = (alpha) => Math.exp(TABLE.logTouch(Math.log(alpha)));
+
+// The highest g of the table at an alpha: ln g is straight in ln alpha between the points.
+function highestG(alpha) {
+  const points = DATA.domain.highest, at = Math.log(alpha);
+  if (!points.length) return DATA.domain.g[1];
+  let [a, g] = points[0];
+  for (const [b, h] of points) {
+    if (at <= Math.log(b)) {
+      const t = b === a ? 0 : (at - Math.log(a))/(Math.log(b) - Math.log(a));
+      return Math.exp(Math.log(g) + Math.max(0, t)*(Math.log(h) - Math.log(g)));
+    }
+    [a, g] = [b, h];
+  }
+  return g;
+}
+
+const ROUNDING = 1 + 1e-12;
+
+const holdsAlpha = (alpha) => alpha >= DATA.domain.alpha[0] && alpha <= DATA.domain.alpha[1];
+
+const holds = (g, alpha) => holdsAlpha(alpha) && g >= DATA.domain.g[0]
+  && g <= highestG(alpha)*ROUNDING;
+
+// The bound of |ln(table/finite elements)| of a function, constant in cells of g and alpha.
+function boundOf(name, g, alpha) {
+  const {bounds} = DATA;
+  const cell = (edges, value) => edges.slice(1, -1).filter((edge) => value >= edge).length;
+  return bounds.errors[name][cell(bounds.g, g)*(bounds.alpha.length - 1) + cell(bounds.alpha, alpha)];
+}
+
+const gOf = (s) => s.Gamma_o/(s.mu*s.R_w);
+
+const rubs = (s) => s.xi !== 0 || s.tau_w !== 0;
+
+// The force and its parts [N/m], and by how much it may be off; null outside the table.
+function forceOf(law, s) {
+  const g = gOf(s), {alpha, Gamma_o: cleavage} = s;
+  if (!rubs(s)) return {g, cleavage, friction: 0, wear: 0, total: cleavage, error: 0};
+  if (!holds(g, alpha)) return null;
+  const scale = 2*law.factor(g, s);
+  const wear = s.tau_w ? scale*(s.tau_w*s.R_w)*TABLE[law.arc](g, alpha) : 0;
+  const friction = s.xi ? scale*(s.R_w*(s.xi*s.mu))*TABLE[law.load](g, alpha) : 0;
+  const total = cleavage + friction + wear;
+  const off = (part, name) => part === 0 ? 0 : part*Math.expm1(boundOf(name, g, alpha));
+  const known = law.errorKnown(g, touchOf(alpha));
+  const error = known ? (off(friction, law.load) + off(wear, law.arc))/total : NaN;
+  return {g, cleavage, friction, wear, total, error};
+}
+
+const withRadius = (s, R_w) => ({...s, R_w});
+
+// Which part dominates: the one that has at least the threshold's share of the force.
+function dominantOf(force) {
+  return DATA.parts.find((part) => force[part]/force.total >= DATA.threshold) ?? DATA.transition;
+}
+
+// The ends of the radii [m] that the table covers for a material.
+function radiiOf(s) {
+  const length = s.Gamma_o/s.mu;
+  return [length/highestG(s.alpha), length/DATA.domain.g[0]];
+}
+
+function spaced(low, high, perDecade) {
+  const count = 2 + Math.ceil(perDecade*Math.log10(high/low));
+  const step = Math.log(high/low)/(count - 1);
+  const values = Array.from({length: count}, (_, i) => low*Math.exp(i*step));
+  values[count - 1] = high;
+  return values;
+}
+
+// Where a condition changes between two positive numbers, to the last digits.
+function changeBetween(condition, low, high) {
+  const first = condition(low);
+  for (let i = 0; i < 200; ++i) {
+    const middle = Math.sqrt(low*high);
+    if (middle <= low || middle >= high) break;
+    if (condition(middle) === first) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+// The stretches of radius [m] in which one part dominates or none does, thin wires first.
+function stretchesOf(law, s) {
+  const [low, high] = radiiOf(s);
+  const at = (radius) => {
+    const inside = Math.min(Math.max(radius, low), high);
+    const force = forceOf(law, withRadius(s, inside));
+    return force && dominantOf(force);
+  };
+  const stretches = [{from: low, part: at(low*(1 + 1e-9))}];
+  let before = low;
+  for (const radius of spaced(low*(1 + 1e-9), high*(1 - 1e-9), 24)) {
+    const last = stretches[stretches.length - 1];
+    const part = at(radius);
+    if (part !== last.part) {
+      stretches.push({from: changeBetween((r) => at(r) === last.part, before, radius), part});
+    }
+    before = radius;
+  }
+  return stretches.map((one, i) => ({...one, to: stretches[i + 1]?.from ?? high}));
+}
+
+// h(g), whose zero is the transition: what the radius does not change less what changes with it.
+function transitionBalance(law, s, g) {
+  const {alpha} = s, relative = s.tau_w/s.mu;
+  const dissipation = (at) => {
+    const arc = relative ? relative*TABLE[law.arc](at, alpha) : 0;
+    return 2*(arc + (s.xi ? s.xi*TABLE[law.load](at, alpha) : 0));
+  };
+  const slope = (relative ? relative*TABLE.byLogG(TABLE[law.arc], g, alpha) : 0)
+    + (s.xi ? s.xi*TABLE.byLogG(TABLE[law.load], g, alpha) : 0);
+  const factor = (at) => law.factor(at, {...s, R_w: s.Gamma_o/(s.mu*at)}), step = 1e-5;
+  const bend = (factor(g*Math.exp(step)) - factor(g*Math.exp(-step)))/(2*step);
+  return g + 2*(bend*dissipation(g) + factor(g)*2*slope) - factor(g)*dissipation(g);
+}
+
+// The transition radius [m], or why there is none: "never" where nothing rubs, "below" or "above"
+// where it is at a g beyond the table.
+function transitionOf(law, s) {
+  if (!rubs(s)) return {why: "never"};
+  const ends = [DATA.domain.g[0], highestG(s.alpha)];
+  const grid = spaced(...ends, 24);
+  const dominated = (g) => transitionBalance(law, s, g) <= 0;
+  let last = grid.length - 1;
+  while (last >= 0 && !dominated(grid[last])) --last;
+  if (last < 0) return {why: "below"};
+  if (last === grid.length - 1) return {why: "above"};
+  return {radius: s.Gamma_o/(s.mu*changeBetween(dominated, grid[last], grid[last + 1]))};
+}
