@@ -16,17 +16,14 @@ from surrogate.contact.fitted import PROJECTED, SLIP
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
 from surrogate.prepared.plan import GAMMA, MU, RADIUS, Plan
-<<<<<<< HEAD
-from surrogate.prepared.statements import COEFFICIENTS, arrays_of, cases_of, force_statements
-=======
 from surrogate.prepared.statements import (
+    COEFFICIENTS,
     arrays_of,
     cases_of,
     force_statements,
     highest_log_g,
     leaves_table,
 )
->>>>>>> prepared
 from surrogate.prepared.table_source import table_part
 from surrogate.scene import QUANTITIES
 from surrogate.version import __version__
