@@ -142,7 +142,9 @@ def fit_slip_bounds(
                 continue
             ratio, alphas = _grid(q, alpha)
             at = _inside(models["table"], ratio * _touching(alphas, touch), alphas)
-            for name, bound in _slip_errors(function, SAFETY * float(own[cell]), at, models).items():
+            for name, bound in _slip_errors(
+                function, SAFETY * float(own[cell]), at, models
+            ).items():
                 found[name][cell] = bound
         for name, values in found.items():
             errors[name][function] = values

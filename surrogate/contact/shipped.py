@@ -31,6 +31,7 @@ __all__ = [
     "Fitted",
     "content_of",
     "fitted_from",
+    "folder_in_use",
     "in_use",
     "read",
     "read_fitted",
@@ -268,6 +269,12 @@ def shipped() -> Fitted:
     """
     named = _in_use or os.environ.get(VARIABLE)
     return read(str(_file_at(named))) if named else _in(models_folder())
+
+
+def folder_in_use() -> Path:
+    """Return the folder of the file that `shipped` reads."""
+    named = _in_use or os.environ.get(VARIABLE)
+    return _file_at(named).parent if named else models_folder()
 
 
 _in_use: str | None = None
