@@ -91,9 +91,14 @@ class CoupledData:
 
     @property
     def amplification(self) -> NDArray[np.float64]:
-        """kappa, F_ss - J over its first order in friction and wear [-]; 1 without any load."""
-        first = 2.0 * (self["wear"] * self["first_arc"] + self["friction"] * self["first_load"])
-        drag = self["steady_force"] - self["energy_release_rate"]
+        """kappa: tau_w/mu times A* and xi times B* over what they are without load [-].
+
+        By the integrals between the zeros of the pressure. The sums over touching nodes, of which
+        F_ss - J consists to the last digits, end between nodes: on a contact of 90 nodes they were
+        off by up to 3 % where the integrals were off by 0.2 %.
+        """
+        first = self["wear"] * self["first_arc"] + self["friction"] * self["first_load"]
+        drag = self["wear"] * self["slip_arc"] + self["friction"] * self["slip_load"]
         ratio = np.divide(drag, first, out=np.ones_like(drag), where=first > 0.0)
         return np.asarray(ratio)
 

@@ -99,9 +99,7 @@ class LawfulTerms:
             )
             error = np.where(np.equal(drag, 0.0), 0.0, error)
         law = np.where(np.equal(number, 0), 0, 1)
-        if type(number) is int:
-            return int(law), float(error)
-        return law, error
+        return (int(law), float(error)) if np.ndim(error) == 0 else (law, error)
 
     def _amplified(
         self, scene: tuple[Any, ...], terms: tuple[Any, Any], load: tuple[Any, ...], fit: Any
@@ -122,14 +120,14 @@ class LawfulTerms:
         terms = AutomaticTerms(scene, None, self.of_dissipation)
         friction, worn, holds, number, fit = terms(*scene)
         number = self._renumbered(number)
-        one = type(friction) is float and type(number) is int
+        one = all(type(value) is float for value in scene)
         unknown = np.nan if one else np.full(np.shape(friction), np.nan)
         return friction, worn, holds, number, 0, fit, unknown
 
     def _renumbered(self, number: Any) -> Any:
         """Return the numbers among the models of slip of models of the projected law."""
         places = [self.known.names.index(name) for name in candidates().names]
-        return places[number] if type(number) is int else np.array(places)[number]
+        return places[number] if np.ndim(number) == 0 else np.array(places)[number]
 
     def _by_masks(
         self, scene: tuple[Any, ...], found: tuple[Any, ...], load: tuple[Any, ...]

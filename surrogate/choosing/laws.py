@@ -29,6 +29,7 @@ __all__ = [
     "SLIP",
     "coupled",
     "force_bound",
+    "is_chosen",
     "of_law",
     "require_known_load",
 ]
@@ -37,6 +38,17 @@ LAWS = (PROJECTED, SLIP, COUPLED)
 """The laws of dissipation."""
 
 _BEST = "table"
+
+
+def is_chosen(model: object) -> bool:
+    """Return whether the model is chosen point by point, perhaps the law with it.
+
+    Examples
+    --------
+    >>> is_chosen("auto"), is_chosen(ANY_LAW), is_chosen("table")
+    (True, True, False)
+    """
+    return is_auto(model) or (isinstance(model, str) and model == ANY_LAW)
 
 
 ANY_LAW = "auto, law auto"

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.elementwise import log, where
+from surrogate.basics.elementwise import dense, log, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
@@ -90,12 +90,16 @@ class Amplification:
 
         0 without any load.
         """
-        x, y = self._place(g, alpha)
+        return self.share_at(*self._place(g, alpha), xi, wear)
+
+    def share_at(self, x: Any, y: Any, xi: Any, wear: Any) -> Any:
+        """Return the same at x = ln(g/g_touch) and y = ln alpha."""
         inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
         inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
         size, direction = self._load(xi, wear)
         x, y = self._clamped(x, y)
-        share = size / self._reach_at(x, y, direction)
+        with np.errstate(all="ignore"):
+            share = np.divide(size, self.reach_at(x, y, direction))
         return where(size == 0.0, 0.0, where(inside, share, np.inf))
 
     def error(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
@@ -138,12 +142,15 @@ class Amplification:
         place = self._place(g, alpha)
         x, y = self._clamped(*place)
         size, direction = self._load(xi, wear)
-        reach = self._reach_at(x, y, direction)
+        reach = self.reach_at(x, y, direction)
         free = (x == place[0]) & (y == place[1]) & (size <= reach)
-        part = where(size <= reach, 1.0, reach / where(size == 0.0, 1.0, size))
-        return (x, y, xi * part, _log1p(wear * part)), free
+        most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
+        worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
+        known = size <= reach
+        xi, wear = where(known, xi, reach * most), where(known, wear, reach * worst)
+        return (x, y, xi, _log1p(wear)), free
 
-    def _reach_at(self, x: Any, y: Any, direction: Any) -> Any:
+    def reach_at(self, x: Any, y: Any, direction: Any) -> Any:
         """Return the reach between its nodes, linear in each of the three."""
         places = [_node(axis, at) for axis, at in zip(self.axes, (x, y, direction), strict=True)]
         (i, s), (j, t), (k, u) = places
@@ -153,6 +160,12 @@ class Amplification:
             corner = self.reach[i + a, j + b, k + c]
             total = total + weight * (float(corner) if np.ndim(corner) == 0 else corner)
         return total
+
+    def in_cell(self, cell: tuple[int, int], x: Array, y: Array) -> NDArray[np.bool_]:
+        """Return which points are in a cell of `errors` and `growth`."""
+        rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
+        columns = np.searchsorted(self.edges[1][1:-1], y, side="right")
+        return np.asarray((rows == cell[0]) & (columns == cell[1]))
 
     def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
         x, y = self._place(g, alpha)
@@ -173,11 +186,11 @@ def _node(axis: Array, value: Any) -> tuple[Any, Any]:
     step = float(axis[1] - axis[0])
     place = (value - float(axis[0])) / step
     if type(value) is float:
-        number = min(max(int(place), 0), len(axis) - 2)
+        number = min(max(int(place), 0), len(axis) - 2) if place == place else 0
         return number, place - number
-    numbers = np.minimum(np.maximum(place, 0.0), len(axis) - 2).astype(np.intp)
+    numbers = np.fmin(np.fmax(place, 0.0), len(axis) - 2).astype(np.intp)
     return numbers, place - numbers
 
 
 def _log1p(x: Any) -> Any:
-    return float(np.log1p(x)) if type(x) is float else np.log1p(np.ascontiguousarray(x))
+    return float(np.log1p(x)) if type(x) is float else np.log1p(dense(x))
