@@ -6,9 +6,15 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from surrogate.basics.command import OneLineParser, run_command
 
+if TYPE_CHECKING:
+    from fe_training.coupled.design import CoupledDesign
+
+DATA = "coupled.h5"
 _EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py"}
 
 _HELP = """\
@@ -35,6 +41,12 @@ def _parser() -> argparse.ArgumentParser:
     add("--bases", type=int, metavar="N", help="only the first N bases")
     add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
     add("--check", action="store_true", help="tell what is finished, and solve nothing")
+    add(
+        "--fit",
+        metavar="FOLDER",
+        help="fit kappa to the rows of coupled.h5 in a folder, and write coupled.npz and its card "
+        "there; solves nothing",
+    )
     return parser
 
 
@@ -46,6 +58,8 @@ def _run(options: argparse.Namespace) -> int:
     from fe_training.coupled.store import CoupledStore
 
     design, store = read_design(options.design), CoupledStore(options.store)
+    if options.fit:
+        return _fit(Path(options.fit), design)
     todo = waiting(design, store)[: options.bases]
     if not options.check:
         with store.opened(design):
@@ -60,6 +74,17 @@ def _run(options: argparse.Namespace) -> int:
     lines = [f"{count:6d} {name}" for name, count in sorted(outcomes.items())]
     lines.append(f"{len(waiting(design, store)):6d} of {design.bases} bases are not finished")
     sys.stdout.write("\n".join(lines) + "\n")
+    return 0
+
+
+def _fit(folder: Path, design: CoupledDesign) -> int:
+    from fe_training.coupled.card import CARD, make_amplification
+    from fe_training.coupled.dataset import read_coupled
+    from surrogate.contact.shipped import shipped
+
+    data = read_coupled(folder / DATA)
+    make_amplification(data, shipped().limits.touch, (design.friction, design.wear), folder)
+    sys.stdout.write(f"{folder / CARD}\n")
     return 0
 
 

@@ -27,7 +27,7 @@ __all__ = ["FitRows", "fit_amplification", "rows_of"]
 Array = NDArray[np.float64]
 
 #: Fewest bases and rows of a fit.
-FEWEST_BASES, FEWEST_ROWS = 8, 60
+FEWEST_BASES, FEWEST_ROWS = 6, 60
 
 #: Least standard error of ln kappa, and the part of the difference between the integrals and the
 #: sums over nodes that remains in the integrals.
@@ -35,6 +35,9 @@ _FLOOR, _LEFT = 1e-3, 0.2
 
 #: Standard deviation of ln kappa up to which it counts as known.
 KNOWN = 0.01
+
+#: The same with the base of a row left out, up to which its error counts.
+LEFT_OUT_KNOWN = 2.0 * KNOWN
 
 #: Factor of the largest error of the rows of a cell.
 SAFETY = 1.5
@@ -154,8 +157,7 @@ def fit_amplification(
         about,
     )
     kappa = replace(bare, polynomial=_polynomial(bare, process, seen))
-    judged = _left_out_polynomials(kappa, process, seen)
-    kappa = replace(kappa, errors=_errors(kappa, seen, judged), growth=_growth(kappa))
+    kappa = replace(kappa, errors=_errors(kappa, process, seen), growth=_growth(kappa))
     return kappa, process, _told(kappa, process, rows, left)
 
 
@@ -299,23 +301,22 @@ def _unscaled(
     return Polynomial(np.array(list(total)), np.array(list(total.values())))
 
 
-def _left_out_polynomials(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
-    """Return the errors of ln kappa at rows whose base the process has not seen."""
-    error, _ = process.left_out(rows.base)
-    apart = kappa.polynomial(*rows.inputs.T) - process.predict(rows.inputs)[0]
-    return np.asarray(np.abs(error) + np.abs(apart))
-
-
 def _share(kappa: Amplification, rows: FitRows) -> Array:
     """Return the loads of rows over the largest ones that are known there."""
     x, y, xi, w = rows.inputs.T
     return np.asarray(kappa.share_at(x, y, xi, np.expm1(w)))
 
 
-def _errors(kappa: Amplification, rows: FitRows, judged: Array) -> Array:
-    """Return bounds by cell, of the rows within reach; the largest where a cell has none."""
-    inside = _share(kappa, rows)
-    known = inside <= 1.0
+def _errors(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
+    """Return bounds by cell, of the rows within reach; the largest where a cell has none.
+
+    The error of a row is that of the process to which its whole base is not known, where that is
+    not extrapolation, and how far the polynomial is from the process.
+    """
+    error, std = process.left_out(rows.base)
+    apart = np.abs(kappa.polynomial(*rows.inputs.T) - process.predict(rows.inputs)[0])
+    judged = np.where(std <= LEFT_OUT_KNOWN, np.abs(error), KNOWN) + apart
+    known = _share(kappa, rows) <= 1.0
     table = np.full(kappa.errors.shape, np.nan)
     for cell in np.ndindex(table.shape):
         here = known & kappa.in_cell(cell, rows.inputs[:, 0], rows.inputs[:, 1])

@@ -165,13 +165,12 @@ def force_bound(model: FittedModel, scene: tuple[Any, ...], parts: tuple[Any, An
         the slip there depends on how sharp it is.
     """
     mu, gamma, radius, xi, tau, alpha = scene
+    cleavage, friction, wear = parts
     with np.errstate(all="ignore"):
         g, relative = quotient(gamma, mu, radius), ratio(tau, mu)
         own = _own_error(model, g, alpha, xi, relative)
-    bounds = contact_bounds(model, g, alpha)
-    assert bounds is not None  # of a fitted model
-    with np.errstate(all="ignore"):
-        cleavage, friction, wear = parts
+        bounds = contact_bounds(model, g, alpha)
+        assert bounds is not None  # of a fitted model
         off = np.where(friction == 0.0, 0.0, friction * (bounds[1] + own))
         off = off + np.where(wear == 0.0, 0.0, wear * (bounds[0] + own))
         known = np.isfinite(off)

@@ -72,6 +72,12 @@ class Amplification:
         """
         return self.polynomial(*self._at(g, alpha, xi, wear)[0])
 
+    def factor_and_known(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any]:
+        """Return ln kappa, and whether it is known there or without any load."""
+        variables, free = self._at(g, alpha, xi, wear)
+        unloaded = np.equal(xi, 0.0) & np.equal(wear, 0.0)
+        return self.polynomial(*variables), free | unloaded
+
     def slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any, Any]:
         """Return the derivatives of ln kappa by ln g, ln alpha, xi and tau_w/mu."""
         variables, free = self._at(g, alpha, xi, wear)

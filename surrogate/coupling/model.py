@@ -110,8 +110,12 @@ class CoupledModel(FittedModel):
 
     def evaluated(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         g = quotient(gamma, mu, radius)
-        terms = self.terms_at(g, mu, gamma, radius, xi, wear, alpha)
-        return *terms, self.in_domain(mu, gamma, radius, xi, wear, alpha)
+        friction, worn = self.slip.terms_at(g, mu, gamma, radius, xi, wear, alpha)
+        with np.errstate(all="ignore"):
+            factor, known = self.amplification.factor_and_known(g, alpha, xi, ratio(wear, mu))
+            kappa, inside = exp(factor), known & self.limits.holds(g, alpha)
+            inside = bool(inside) if np.ndim(inside) == 0 else inside
+            return _times(friction, kappa), _times(worn, kappa), inside
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return whether the coupled solutions reach to the load; always where there is none."""
