@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Amplification:
-    """ln kappa, where it is known, and how far it may be off.
+    """The logarithm of kappa, where it is known, and how far it may be off.
 
     Parameters
     ----------
