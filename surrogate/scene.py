@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -42,8 +43,10 @@ NAMES = tuple(quantity.name for quantity in QUANTITIES)
 class Scene(Record):
     """A soft solid and the wire that cuts it, in SI units.
 
-    Numbers become Python floats. Arrays become read-only views, not copies, of float64 arrays;
-    they broadcast together. What is derived has the common shape of what it depends on.
+    Numbers become Python floats. Arrays become read-only copies of float64, so that a scene stays
+    as it was when the caller's arrays change; what is read-only already and owns its numbers is
+    kept, not copied. Arrays broadcast together. What is derived has the common shape of what it
+    depends on.
 
     Parameters
     ----------
@@ -107,12 +110,14 @@ class Scene(Record):
         )
         for quantity, value in zip(QUANTITIES, given):  # noqa: B905 (twice the speed)
             checked = quantity.checked(value)
-            if not isinstance(checked, float):
-                checked = checked.view()
-                checked.flags.writeable = False
+            if type(checked) is not float:
+                checked = _frozen(checked)
             object.__setattr__(self, quantity.name, checked)
         if not all(type(value) is float for value in self.values()):
             broadcast_shape(NAMES, self.values())
+
+    def __reduce__(self) -> Any:
+        return type(self), self.values()  # by the constructor, whose arrays are read-only
 
     def values(self) -> tuple[FloatOrArray, ...]:
         """Return the six quantities in the order of the parameters."""
@@ -147,6 +152,15 @@ class Scene(Record):
         """l_w = Gamma_o/tau_w [m]; infinite where tau_w = 0, a `DomainError` if 0/0."""
         length = apply(ratio, (self.toughness, self.wear_strength))
         return defined("wear_length", length, "give a toughness or a wear strength")
+
+
+def _frozen(array: Any) -> Any:
+    """Return the numbers as a read-only array that shares them with nobody who may write."""
+    if array.flags.owndata and not array.flags.writeable:
+        return array
+    array = array.copy()
+    array.flags.writeable = False
+    return array
 
 
 def require_scene(value: object, name: str = "scene") -> None:

@@ -9,7 +9,8 @@ from typing import Any
 
 from surrogate.basics.checks import one_number
 from surrogate.basics.files import written_whole
-from surrogate.cli.common import Record, add_model_option, print_answer, quantity
+from surrogate.choosing.laws import PROJECTED
+from surrogate.cli.common import Record, add_law_option, add_model_option, print_answer, quantity
 from surrogate.errors import InputError
 from surrogate.prepared.preparing import prepare
 from surrogate.prepared.source import LANGUAGES
@@ -24,7 +25,8 @@ DESCRIPTION = "The force as a program of its own: C, JavaScript, MATLAB/Octave o
 EXAMPLES = """\
 A quantity with one value is fixed, one with two varies between them: the program is a function of
 what varies. It checks its ranges and tests itself; its first lines say what it is and how far it
-may be off. --table writes the table itself instead, a function of all six quantities.
+may be off. --table writes the table itself instead, a function of all six quantities. With --law
+slip the force is that of the law of slip.
 
 examples:
   wirecut export --format c --shear-modulus 685Pa --toughness 1.6J/m2 \\
@@ -57,6 +59,8 @@ def add_export_options(command: argparse.ArgumentParser) -> None:
     add("--table", action="store_true", help="the whole table: all six quantities vary")
     add("--out", metavar="FILE", help="file to write; printed without it")
     add_model_option(command)
+    add_law_option(command)
+    command.set_defaults(rtol=None)  # which `prepare` reads as 0.02 where there is a choice
 
 
 def run_export(options: argparse.Namespace) -> int:
@@ -76,8 +80,9 @@ def _table(options: argparse.Namespace) -> tuple[str, Record]:
             f"--table must stand without quantities, but --{set_too[0].replace('_', '-')} was "
             "given; leave out one of them."
         )
-    what: Record = {"what": "the table of A and B", "relative_error": math.nan, "warnings": []}
-    return whole_table(options.format), what
+    names = "A and B" if options.law == PROJECTED else "A* and B*"
+    what: Record = {"what": f"the table of {names}", "relative_error": math.nan, "warnings": []}
+    return whole_table(options.format, options.law), what
 
 
 def _force(options: argparse.Namespace) -> tuple[str, Record]:
@@ -87,7 +92,7 @@ def _force(options: argparse.Namespace) -> tuple[str, Record]:
             "a quantity must vary, but each has one value; give two to one, such as "
             "--wire-radius 0.1mm 1mm."
         )
-    force = prepare(fixed, tuple(ranges), ranges, options.model, options.rtol)
+    force = prepare(fixed, tuple(ranges), ranges, options.model, options.rtol, options.law)
     return force.source(options.format), {
         "what": str(force),
         "relative_error": force.relative_error,

@@ -14,6 +14,7 @@ from surrogate.cli.alternatives import alternatives_record, alternatives_text
 from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
+from surrogate.identification.doubts import exactness
 from surrogate.identification.fit import Identification
 from surrogate.identification.friction import SUPPOSED
 from surrogate.identification.open_questions import wire_in_words
@@ -110,8 +111,23 @@ def _pieces_text(record: Mapping[str, Any]) -> str:
 NO_SCATTER = "no scatter"
 
 
-def identification_record(fit: Identification, material: Material) -> Record:
-    """Return estimates, lengths, transition radii, wires and warnings of an identification."""
+EXAMPLE = (
+    "the forces of the example are read from the line that the paper publishes, which the model "
+    "meets to the last digit: that these are the paper's numbers is all that they say, and of an "
+    "interval nothing is known"
+)
+
+
+def identification_record(fit: Identification, material: Material, example: bool = False) -> Record:
+    """Return estimates, lengths, transition radii, wires and warnings of an identification.
+
+    That forces are met exactly is no objection to an example of which it is known why.
+    """
+    objecting = [*_beside_pure_shear(fit, material), *fit.objections]
+    doubting = [*_beside_pure_shear(fit, material), *fit.warnings]
+    if example and (known := set(exactness(fit))):
+        objecting = [sentence for sentence in objecting if sentence not in known]
+        doubting = [EXAMPLE, *(sentence for sentence in doubting if sentence not in known)]
     lengths = _lengths(fit, material)
     alternatives = alternatives_record(fit, material)
     unknown = {f"{name}_{what}": None for name in _ESTIMATES for what in ("std", "interval")}
@@ -153,8 +169,8 @@ def identification_record(fit: Identification, material: Material) -> Record:
         "lengths": lengths,
         "transition_radii": _transition_radii(fit, material, lengths),
         "wires": _identified_wires(fit),
-        "objections": [*_beside_pure_shear(fit, material), *fit.objections],
-        "warnings": [*_beside_pure_shear(fit, material), *fit.warnings],
+        "objections": objecting,
+        "warnings": doubting,
         "model_error": fit.model_error,
         **profile_record(fit),
         **alternatives,
@@ -268,6 +284,8 @@ def _identified_wires(fit: Identification) -> list[Record]:
         wire_radius=fit.wire_radius,
         dimensionless_toughness=fit.dimensionless_toughness,
         force=fit.force,
+        force_std=fit.force_std,
+        sample=fit.sample,
         residual=fit.residuals,
         **regime,
     )

@@ -36,7 +36,7 @@ from surrogate.reading.units import (
     Dimension,
 )
 
-__all__ = ["add_fact_options", "facts"]
+__all__ = ["add_fact_options", "add_table_options", "facts"]
 
 Parser = Callable[[Dimension], Callable[[str], float]]
 
@@ -145,11 +145,17 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add_fact_options(command, quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
     add("--csv", metavar="TABLE", help="write the fitted line and its band")
+    add_table_options(command)
+    add_record_options(command)
+
+
+def add_table_options(command: argparse.ArgumentParser) -> None:
+    """Add what a table may leave open."""
+    add = command.add_argument
     add("--thickness", type=quantity(LENGTH), metavar="T", help="of the sample, for forces in N")
     add("--decimal", metavar="SIGN", help="decimal sign of FILE: . or ,")
     add("--delimiter", metavar="SIGN", help="what separates columns: , ; tab | or blank")
     add("--encoding", metavar="NAME", help="encoding of FILE, such as utf-16")
-    add_record_options(command)
 
 
 _OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "columns")
@@ -229,7 +235,7 @@ def run_identify(options: argparse.Namespace) -> int:
         "forces": origin,
         "picture": options.plot,
     }
-    record |= identification_record(fit, material)
+    record |= identification_record(fit, material, options.example)
     record["verbose"] = options.verbose
     print_record(options, record, identification_text)
     return DOUBTED if record["objections"] or measurements.warnings else 0

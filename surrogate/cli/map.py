@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import fill
 from types import MappingProxyType
@@ -14,6 +14,15 @@ import numpy as np
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
 from surrogate.cli.common import add_law_option, share, whole_number
+from surrogate.cli.identify import add_table_options
+from surrogate.cli.map_points import (
+    Drawn,
+    drawn_points,
+    points_record,
+    points_text,
+    range_of,
+    taken_from,
+)
 from surrogate.cutting.regimes import DOMINANT_SHARE
 from surrogate.errors import InputError
 from surrogate.identification.fit import identify
@@ -131,6 +140,7 @@ presets:
 
 examples:
   wirecut map --preset gel --out map.pdf
+  wirecut map --points cuts.csv --material gel.json --out map.pdf
   wirecut map --x R_w 10um 10mm --y tau_w 1kPa 100kPa --fix mu=685Pa Gamma_o=1.6J/m2 --csv map.csv
 """
 
@@ -143,8 +153,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
         add(f"--{axis}", nargs=3, metavar=("NAME", "LOW", "HIGH"), help=f"what {axis} shows")
     add("--linear", nargs="+", choices="xy", default=[], help="axes with a linear scale")
     add("--fix", nargs="+", default=[], metavar="NAME=VALUE", help="what else is given")
-    add("--model", default="eq13", help="force model, see 'wirecut models' (default eq13)")
+    add("--model", help="force model, see 'wirecut models' (default eq13, or that of --points)")
     add_law_option(command)
+    command.set_defaults(law=None)
     for option, metavar, default, words in (
         ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
@@ -161,6 +172,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add("--limits", nargs="+", default=[], metavar="MODEL", help="limits whose end is drawn")
     add("--error-of", metavar="MODEL", help="show this model's error beside the map's model")
     add("--no-contact", action="store_true", help="leave out where the wire touches the tip")
+    add(
+        "--points",
+        nargs="+",
+        default=[],
+        metavar="FILE",
+        help="draw your own cuts: the table that 'wirecut identify' reads, or what it prints with "
+        "--json; without --preset, --x and --y the map is that of their gel",
+    )
+    add("--material", metavar="FILE", help="properties of the gel of --points (JSON)")
+    add_table_options(command)
     add("--out", metavar="PICTURE", help="draw the map (.pdf, .svg, .png)")
     add("--csv", metavar="FILE", help="write the map, one line a node")
     add("--boundaries-csv", metavar="FILE", help="write the boundaries, one line a point")
@@ -173,13 +194,14 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
             "--out": options.out,
             "--csv": options.csv,
             "--boundaries-csv": options.boundaries_csv,
-        }
+        },
+        [*options.points, options.material],
     )
-    for option, value in (("--limits", options.limits), ("--error-of", options.error_of)):
-        if value and not options.out:
-            raise InputError(f"{option} is for the picture; give --out as well, or leave it out.")
-    made = run_map(options)
-    points, notes = _points(PRESETS.get(options.preset), made)
+    _check_options(options)
+    own = drawn_points(options, _fixed(options.fix)) if options.points else []
+    made = run_map(options, own)
+    points, notes = _points(PRESETS.get(options.preset), made, own)
+    rows = points_record(own, made, made.model)
     if options.out:
         from surrogate.maps.figure import save_regime_map
 
@@ -197,10 +219,26 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     if options.boundaries_csv:
         made.boundaries_to_csv(options.boundaries_csv)
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
+    read = [note for gel in own for note in gel.notes]
+    doubted = [f"{gel.file}: {doubt}" for gel in own for doubt in gel.fit.warnings]
     return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | {
-        "notes": notes if options.out else [],
+        "notes": [*read, *doubted, *(notes if options.out else [])],
+        "points": rows,
         "diameters": options.diameters,
     }
+
+
+def _check_options(options: argparse.Namespace) -> None:
+    """Refuse options that the others leave without a purpose."""
+    for option, value in (("--limits", options.limits), ("--error-of", options.error_of)):
+        if value and not options.out:
+            raise InputError(f"{option} is for the picture; give --out as well, or leave it out.")
+    for name in ("material", "thickness", "decimal", "delimiter", "encoding"):
+        if getattr(options, name) is not None and not options.points:
+            raise InputError(
+                f"--{name} is for the table of --points; give --points FILE as well, or leave it "
+                "out."
+            )
 
 
 def map_text(made: dict[str, Any]) -> str:
@@ -233,10 +271,11 @@ def map_text(made: dict[str, Any]) -> str:
         f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
         table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
     ]
-    parts += [f"Note: {note}" for note in made["notes"]]
+    parts.insert(1, points_text(made["points"], x, y, made["diameters"]))
+    parts += [fill(f"Note: {note}", 96, subsequent_indent="  ") for note in made["notes"]]
     if made["files"]:
         parts.append(f"Written: {', '.join(made['files'])}")
-    return "\n\n".join(parts)
+    return "\n\n".join(part for part in parts if part)
 
 
 def _told_in_diameters(made: dict[str, Any]) -> dict[str, Any]:
@@ -265,24 +304,34 @@ def _told_in_diameters(made: dict[str, Any]) -> dict[str, Any]:
     return told
 
 
-def run_map(options: argparse.Namespace) -> RegimeMap:
+def run_map(options: argparse.Namespace, own: Sequence[Drawn] = ()) -> RegimeMap:
     preset = PRESETS.get(options.preset)
+    if own and preset is None and options.x is options.y is None:
+        preset = _around(own)
     x, x_range = _axis(options.x, preset, 0)
     y, y_range = _axis(options.y, preset, 1)
     fixed = {**(preset.fixed if preset else {}), **_fixed(options.fix)}
+    fixed |= taken_from(own, (x, y), fixed)
     return regime_map(
         x,
         y,
         (x_range, y_range),
         fixed,
-        options.model,
+        own[0].fit.model if own else options.model or "eq13",
         rtol=options.rtol,
-        law=options.law,
+        law="projected" if own else options.law or "projected",
         scales=tuple("linear" if axis in options.linear else "log" for axis in "xy"),
         nodes=options.nodes,
         threshold=options.threshold,
         miss=options.miss,
     )
+
+
+def _around(own: Sequence[Drawn]) -> Preset:
+    """Return the map of a gel around its own cuts; of several, over groups that they share."""
+    x, y = ("wire_radius", "toughness") if len(own) == 1 else ("R_w/l_e", "R_w/l_w")
+    ranges = range_of(own, COORDINATES[x]), range_of(own, COORDINATES[y])
+    return Preset("around the points", x, y, ranges, {})
 
 
 def _axis(
@@ -315,10 +364,15 @@ def _in_radii(name: str) -> tuple[str, float]:
     return ("wire_radius", 0.5) if name in _DIAMETERS else (name, 1.0)
 
 
-def _points(preset: Preset | None, made: RegimeMap) -> tuple[list[MapPoints], list[str]]:
-    """Return what a preset has to draw on a map, or a note why that does not belong there."""
-    if preset is None or not preset.example:
-        return [], []
+def _points(
+    preset: Preset | None, made: RegimeMap, own: Sequence[Drawn]
+) -> tuple[list[MapPoints], list[str]]:
+    """Return what is to be drawn on a map, and why a preset's experiment does not belong there."""
+    points = [one for gel in own for one in gel.points]
+    for one in points:
+        require_the_same(one, made)
+    if own or preset is None or not preset.example:
+        return points, []
     points = _example()
     try:
         for one in points:

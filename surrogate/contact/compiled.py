@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-__all__ = ["bicubic", "places"]
+__all__ = ["bicubic", "cubic", "line_places", "places"]
 
 
 @njit(cache=True, error_model="numpy")
@@ -81,3 +81,53 @@ def bicubic(cells: Any, index: Any, t: Any, s: Any) -> Any:
         c3 = c[12] + y * (c[13] + y * (c[14] + y * c[15]))
         result[n] = c0 + x * (c1 + x * (c2 + x * c3))
     return result
+
+
+@njit(cache=True, error_model="numpy")
+def line_places(
+    x: Any, start: float, sign: float, before: float, after: float, short: int, piece: Any
+) -> None:
+    """Put the pieces of points and the places in them, 0 to 1, into `piece` and `x`.
+
+    Parameters
+    ----------
+    x : ndarray, shape (points,)
+        What start + sign x is the ln(g/g_touch) of; changed.
+    start, sign : float
+        As above.
+    before, after : float
+        Pieces per ln g short of and past the touch.
+    short : int
+        Number of pieces short of the touch.
+    piece : ndarray of uint32, shape (points,)
+        Changed.
+
+    Examples
+    --------
+    >>> x, piece = np.array([1.5, -0.5]), np.empty(2, np.uint32)
+    >>> line_places(x, 0.0, -1.0, 1.0, 4.0, 3, piece)
+    >>> x, piece
+    (array([0.5, 0. ]), array([1, 5], dtype=uint32))
+    """
+    for n in range(x.size):
+        y = start + sign * x[n]
+        t = (before if y < 0.0 else after) * y + short
+        whole = np.int32(t)
+        piece[n] = whole
+        x[n] = t - whole
+
+
+@njit(cache=True, error_model="numpy")
+def cubic(rows: Any, index: Any, x: Any, result: Any) -> None:
+    """Put the cubics of rows, shape (pieces, 4), at places in them into `result`.
+
+    Examples
+    --------
+    >>> result = np.empty(1)
+    >>> cubic(np.array([[1.0, 2.0, 3.0, 4.0]]), np.zeros(1, np.uint32), np.array([2.0]), result)
+    >>> result
+    array([49.])
+    """
+    for n in range(x.size):
+        row, t = rows[index[n]], x[n]
+        result[n] = row[0] + t * (row[1] + t * (row[2] + t * row[3]))

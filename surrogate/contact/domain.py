@@ -17,10 +17,10 @@ from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 from surrogate.errors import DomainError
 
-__all__ = ["Domain", "require_below_highest", "require_inside"]
+__all__ = ["ROUNDING", "Domain", "require_below_highest", "require_inside"]
 
 #: The highest g may be missed by this factor, as it comes from a logarithm.
-_ROUNDING = 1.0 + 1e-12
+ROUNDING = 1.0 + 1e-12
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class Domain:
         first, last = self.alpha
         inside = (g >= low) & (g <= high) & (alpha >= first) & (alpha <= last)
         if self.highest and np.any(inside):
-            inside = inside & (g <= self.highest_g(where(inside, alpha, first)) * _ROUNDING)
+            inside = inside & (g <= self.highest_g(where(inside, alpha, first)) * ROUNDING)
         return inside
 
     @cached_property

@@ -5,8 +5,8 @@ each coordinate. Instead of all points, a chosen few carry the prediction (the d
 training conditional): with K_uu the covariance of these, K_uf that with all and N the noise, the
 mean is k_u S K_uf N^-1 y with S = (K_uu + K_uf N^-1 K_fu)^-1, and the variance is
 k - k_u (K_uu^-1 - S) k_u. With K_uu = L L' and the eigenvalues q of L^-1 K_uf N^-1 K_fu L'^-1 the
-middle is that of q/(1 + q), a square without differences. Everything but the points and the
-parameters is computed once, at the first use.
+middle is that of q/(1 + q), a square without differences, of which the triangular root is taken.
+Everything but the points and the parameters is computed once, at the first use.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ __all__ = ["GaussianProcess", "ProcessModel"]
 Array = NDArray[np.float64]
 
 ROWS = 128  # points at a time, always: so that no result depends on how many are asked for
+COLUMNS = 28  # of a triangle at a time
 JITTER = 1e-11
 
 
@@ -76,31 +77,34 @@ class GaussianProcess:
         """Return mean and standard deviation at points of shape (n, coordinates)."""
         mean, std = np.empty(len(at)), np.empty(len(at))
         room, other, (weights, spread) = self._room(ROWS), self._room(ROWS), self._solved
-        for rows, block in _blocks(at):
-            some = slice(0, rows.stop - rows.start)
-            covariance = self._covariance(block, room)
-            mean[rows] = self.mean + _sum(np.multiply(covariance, weights, out=other))[some]
-            np.matmul(covariance, spread, out=other)
-            other *= other
-            variance = np.maximum(self.variance - _sum(other), 0.0)[some]
-            std[rows] = self.calibration * np.sqrt(variance)
+        for rows, block in _blocks(self._factors(at)):
+            covariance, number = self._covariance(block, room), rows.stop - rows.start
+            mean[rows] = _sum(np.multiply(covariance, weights, out=other))[:number]
+            _times_triangle(covariance, spread, other)
+            std[rows] = _squares(other[:number])
+        mean += self.mean
+        np.subtract(self.variance, std, out=std)
+        np.sqrt(np.maximum(std, 0.0, out=std), out=std)
+        std *= self.calibration
         return mean, std
 
     def predict_mean(self, at: Array) -> Array:
         """Return the mean at points of shape (n, coordinates)."""
         mean, room, (weights, _) = np.empty(len(at)), self._room(ROWS), self._solved
-        for rows, block in _blocks(at):
+        for rows, block in _blocks(self._factors(at)):
             weighted = np.multiply(self._covariance(block, room), weights, out=room)
-            mean[rows] = self.mean + _sum(weighted)[: rows.stop - rows.start]
+            mean[rows] = _sum(weighted)[: rows.stop - rows.start]
+        mean += self.mean
         return mean
 
     def gradient(self, at: Array) -> Array:
         """Return the derivatives of the mean by the coordinates, shape (n, coordinates)."""
         slopes, room, (weights, _) = np.empty(at.shape), self._room(ROWS), self._solved
-        for rows, block in _blocks(at):
+        factors, coordinates = _blocks(self._factors(at)), _blocks(at)
+        for (rows, block), (_, places) in zip(factors, coordinates, strict=True):
             weighted = np.multiply(self._covariance(block, room), weights, out=room)
             for i, length in enumerate(self.lengths):
-                apart = self._active[0][:, i] - block[:, i, np.newaxis]
+                apart = self._active[0][:, i] - places[:, i, np.newaxis]
                 slope = _sum(weighted * apart) / length**2
                 slopes[rows, i] = slope[: rows.stop - rows.start]
         return slopes
@@ -108,14 +112,16 @@ class GaussianProcess:
     def _room(self, rows: int) -> Array:
         return np.empty((rows, len(self.active)))
 
-    def _covariance(self, at: Array, room: Array) -> Array:
-        """Return the covariance with the active points, in `room`."""
+    def _factors(self, at: Array) -> Array:
+        """Return the left factors of `_covariance` of points."""
         # -r^2/2 of x and y is x y - (x^2 + y^2)/2: one product of matrices, where differences
-        # would need a pass over `room` for each coordinate
-        _, centre, columns = self._active
-        x = (at - centre) / self.lengths
-        x = np.concatenate([x, np.full((len(x), 1), 1.0), _half_square(x)], axis=1)
-        np.matmul(x, columns, out=room)
+        # would need a pass over all pairs for each coordinate
+        x = (at - self._active[1]) / self.lengths
+        return np.concatenate([x, np.full((len(x), 1), 1.0), _half_square(x)], axis=1)
+
+    def _covariance(self, factors: Array, room: Array) -> Array:
+        """Return the covariance of points with the active ones, in `room`."""
+        np.matmul(factors, self._active[2], out=room)
         return np.exp(room, out=room)
 
     @cached_property
@@ -129,8 +135,8 @@ class GaussianProcess:
 
     @cached_property
     def _solved(self) -> tuple[Array, Array]:
-        """The weights of the mean, and the matrix that gives the variance."""
-        k_uf = self._covariance(self.inputs, self._room(len(self.inputs))).T
+        """The weights of the mean, and the lower triangle that gives the variance."""
+        k_uf = self._covariance(self._factors(self.inputs), self._room(len(self.inputs))).T
         k_uu = k_uf[:, self.active] + JITTER * self.variance * np.eye(len(self.active))
         whitening = np.linalg.inv(np.linalg.cholesky(k_uu))
         white = whitening @ k_uf
@@ -139,11 +145,24 @@ class GaussianProcess:
         target = white @ ((self.values - self.mean) / self.noise)
         weights = whitening.T @ (axes @ ((axes.T @ target) / (1.0 + known)))
         spread = whitening.T @ (axes * np.sqrt(known / (1.0 + known)))
-        return weights, spread
+        # another square root of the same matrix, of half as many numbers
+        triangle = np.transpose(np.linalg.qr(spread.T, mode="r"))
+        return weights, np.ascontiguousarray(triangle)
+
+
+def _times_triangle(rows: Array, triangle: Array, result: Array) -> None:
+    """Put rows times a lower triangle into `result`, without most of what is above it."""
+    for start in range(0, len(triangle), COLUMNS):
+        some = slice(start, start + COLUMNS)
+        np.matmul(rows[:, start:], triangle[start:, some], out=result[:, some])
 
 
 def _sum(rows: Array) -> Array:
-    return np.asarray(np.add.reduce(rows, axis=1))
+    return np.asarray(np.add.reduce(rows, axis=1))  # by pairs: less rounding than a running sum
+
+
+def _squares(rows: Array) -> Array:
+    return np.asarray(np.einsum("ij,ij->i", rows, rows))
 
 
 def _half_square(rows: Array) -> Array:

@@ -25,7 +25,7 @@ from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import PROJECTED, FittedModel
 from surrogate.contact.grid import Grid, Place
 
-__all__ = ["CellTable", "TableModel"]
+__all__ = ["CellTable", "TableModel", "cubics"]
 
 Array = NDArray[np.float64]
 
@@ -52,9 +52,9 @@ class CellTable:
     grid: Grid
     nodes: Mapping[str, tuple[Array, Array]]
     _cells: dict[str, Array] = field(default_factory=dict, repr=False)
-    _columns: dict[str, list[Array]] = field(default_factory=dict, repr=False)
+    _quarters: dict[str, list[Array]] = field(default_factory=dict, repr=False)
     _rows: dict[str, dict[int, tuple[float, ...]]] = field(default_factory=dict, repr=False)
-    _collapsed: dict[tuple[str, int, float], list[Array]] = field(default_factory=dict, repr=False)
+    _collapsed: dict[tuple[str, int, float], Array] = field(default_factory=dict, repr=False)
 
     def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
         """Return x = ln(g/g_touch) and functions at points: floats, or arrays and one alpha."""
@@ -90,11 +90,12 @@ class CellTable:
             self._cells[name] = np.concatenate(sides)
         return self._cells[name]
 
-    def _transposed(self, name: str) -> list[Array]:
-        """Return sixteen arrays of coefficients over the cells."""
-        if name not in self._columns:
-            self._columns[name] = list(np.ascontiguousarray(self.cells(name).T))
-        return self._columns[name]
+    def _by_power(self, name: str) -> list[Array]:
+        """Return the coefficients of every cell by their power along g, in rows of four."""
+        if name not in self._quarters:
+            cells = self.cells(name).reshape(-1, 4, 4)
+            self._quarters[name] = [np.ascontiguousarray(cells[:, k]) for k in range(4)]
+        return self._quarters[name]
 
     def _row(self, name: str, cell: int) -> tuple[float, ...]:
         """Return the coefficients of one cell as numbers, which are kept."""
@@ -160,13 +161,13 @@ class CellTable:
         index = place.along_g * self.grid.stiffening
         index += place.along_alpha
         t, s = place.in_g, place.in_alpha
-        power, taken = np.empty(t.shape), np.empty(t.shape)
+        power, taken = np.empty(t.shape), np.empty((*t.shape, 4))
         found = []
         for name in names:
-            columns, result = self._transposed(name), np.empty(t.shape)
-            _horner(columns[12:], index, s, result, taken)
-            for k in (8, 4, 0):
-                _horner(columns[k : k + 4], index, s, power, taken)
+            quarters, result = self._by_power(name), np.empty(t.shape)
+            cubics(quarters[3], index, s, result, taken)
+            for quarter in quarters[2::-1]:
+                cubics(quarter, index, s, power, taken)
                 result *= t
                 result += power
             found.append(result)
@@ -174,29 +175,50 @@ class CellTable:
 
     def _along(self, name: str, place: Place) -> Array:
         """Return the function along g at one alpha."""
-        result, taken = np.empty(place.in_g.shape), np.empty(place.in_g.shape)
-        columns = self._collapse(name, place.along_alpha, place.in_alpha)
-        _horner(columns, place.along_g, place.in_g, result, taken)
+        result, taken = np.empty(place.in_g.shape), np.empty((*place.in_g.shape, 4))
+        rows = self._collapse(name, place.along_alpha, place.in_alpha)
+        cubics(rows, place.along_g, place.in_g, result, taken)
         return result
 
-    def _collapse(self, name: str, j: int, s: float) -> list[Array]:
-        """Return the four columns that are left of the table at one alpha; the latest are kept."""
+    def _collapse(self, name: str, j: int, s: float) -> Array:
+        """Return the cubics that are left of the table at one alpha; the latest are kept."""
         found = self._collapsed.get((name, j, s))
         if found is None:
-            c = self.cells(name).reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 1, 0)
-            found = list(np.ascontiguousarray(c[0] + s * (c[1] + s * (c[2] + s * c[3]))))
+            c = self.cells(name).reshape(-1, self.grid.stiffening, 4, 4)[:, j].transpose(2, 0, 1)
+            found = np.ascontiguousarray(c[0] + s * (c[1] + s * (c[2] + s * c[3])))
             if len(self._collapsed) >= _KEPT:
                 self._collapsed.clear()
             self._collapsed[name, j, s] = found
         return found
 
 
-def _horner(columns: Sequence[Array], index: Any, x: Any, result: Array, taken: Array) -> None:
-    """Put the polynomials of cells into `result`, whose columns are their coefficients."""
-    columns[-1].take(index, out=result, mode="clip")  # clipping takes less time than checking
-    for column in columns[-2::-1]:
+def cubics(rows: Array, index: Any, x: Any, result: Array, taken: Array) -> None:
+    """Put cubics into `result`, whose coefficients are rows of an array, by rising powers.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (cells, 4)
+        The coefficients.
+    index, x : ndarray, shape (points,)
+        The row of each point, and where.
+    result, taken : ndarray, shape (points,) and (points, 4)
+        Where to put the values, and room for the rows of the points: to copy rows and to read them
+        with strides takes less time than to gather each coefficient.
+
+    Examples
+    --------
+    >>> result = np.empty(1)
+    >>> row, first = np.array([[1.0, 2.0, 3.0, 4.0]]), np.array([0])
+    >>> cubics(row, first, np.array([2.0]), result, np.empty((1, 4)))
+    >>> result
+    array([49.])
+    """
+    rows.take(index, axis=0, out=taken, mode="clip")  # clipping takes less time than checking
+    np.multiply(taken[..., 3], x, out=result)
+    result += taken[..., 2]
+    for power in (1, 0):
         result *= x
-        result += column.take(index, out=taken, mode="clip")
+        result += taken[..., power]
 
 
 def _coefficients(values: Array) -> Array:

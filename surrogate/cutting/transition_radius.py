@@ -48,13 +48,16 @@ from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import DomainError
+from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = [
     "fracto_cohesive_transition_radius",
     "transition_radius",
+    "transition_radius_of",
     "transition_under",
     "wear_transition_radius",
+    "wear_transition_radius_of",
 ]
 
 
@@ -103,6 +106,11 @@ def transition_radius(
     AccuracyError
         If the model is "auto" and none is as exact as `rtol`.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If a quantity but the radius is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of the model. With xi = 0 and Eq. (13) this is
@@ -122,13 +130,28 @@ def transition_radius(
     True
     """
     require_scene(scene)
+    mu, gamma, _, xi, tau = scene.values()[:5]
+    warn_of_scene((mu, gamma, 0.0, xi, tau))  # the radius plays no part
+    return transition_radius_of(scene, of_law(model, law), rtol)
+
+
+def transition_radius_of(
+    scene: Scene, model: str | ForceModel, rtol: float | None = None
+) -> FloatOrArray:
+    """Return what `transition_radius` does under the model's own law, without doubting the scene.
+
+    Examples
+    --------
+    >>> print(f"{transition_radius_of(Scene(685.0, 1.6, 1.0, 0.1, 7750.0), 'eq13'):.4e} m")
+    5.6277e-05 m
+    """
     quantities = (
         scene.shear_modulus,
         scene.toughness,
         scene.friction_coefficient,
         scene.wear_strength,
     )
-    chosen = one_model(of_law(model, law), rtol)
+    chosen = one_model(model, rtol)
     if chosen.name == "eq13":
         radius = apply(_transition, quantities)
     else:
@@ -156,6 +179,11 @@ def wear_transition_radius(scene: Scene) -> FloatOrArray:
     DomainError
         If Gamma_o and tau_w are both 0.
 
+    Warns
+    -----
+    ImplausibleInputWarning
+        If one of them is hardly that of a soft solid's cut.
+
     Notes
     -----
     Range of validity: that of Eq. (15), xi << 1 and xi mu << tau_w.
@@ -170,6 +198,18 @@ def wear_transition_radius(scene: Scene) -> FloatOrArray:
     5.1613e-05 m
     """
     require_scene(scene)
+    warn_of_scene((0.0, scene.toughness, 0.0, 0.0, scene.wear_strength))
+    return wear_transition_radius_of(scene)
+
+
+def wear_transition_radius_of(scene: Scene) -> FloatOrArray:
+    """Return what `wear_transition_radius` does, without doubting the scene.
+
+    Examples
+    --------
+    >>> wear_transition_radius_of(Scene(685.0, 1.6, 1.0, wear_strength=8000.0))
+    5e-05
+    """
     radius = apply(_quarter, (scene.toughness, scene.wear_strength))
     return defined("wear_transition_radius", radius, "give a toughness or a wear strength")
 

@@ -28,7 +28,7 @@ from surrogate.cutting.gradient import force_gradient
 from surrogate.errors import InputError
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 
-__all__ = ["UncertainForce", "propagate"]
+__all__ = ["UncertainForce", "correlation_matrix", "propagate"]
 
 Correlations = Mapping[tuple[str, str], float]
 
@@ -167,7 +167,7 @@ def propagate(
     require_scene(scene)
     chosen = one_model(of_law(model, law), rtol)
     errors = _checked(std)
-    rho = _correlation_matrix(list(errors), {} if correlation is None else correlation)
+    rho = correlation_matrix(list(errors), {} if correlation is None else correlation)
     gradient = force_gradient(scene, chosen, extrapolate=extrapolate)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
@@ -199,7 +199,21 @@ def _check_name(name: object, names: tuple[str, ...] | list[str], where: str) ->
         )
 
 
-def _correlation_matrix(names: list[str], correlation: object) -> NDArray[np.float64]:
+def correlation_matrix(names: list[str], correlation: object) -> NDArray[np.float64]:
+    """Return the correlations of uncertain quantities as a matrix, in the order of their names.
+
+    Raises
+    ------
+    InputError
+        If a pair is none of these quantities, a number is beyond -1 to 1, or they contradict each
+        other.
+
+    Examples
+    --------
+    >>> correlation_matrix(["toughness", "wear_strength"], {("toughness", "wear_strength"): -0.5})
+    array([[ 1. , -0.5],
+           [-0.5,  1. ]])
+    """
     rho = np.eye(len(names))
     example = "{('toughness', 'wear_strength'): -0.9}"
     for pair, value in mapping("correlation", correlation, example).items():

@@ -21,7 +21,7 @@ from surrogate.inference.quantiles import chi_squared_limit, exceeds_f, student_
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import doubts
 
-__all__ = ["fit_warnings", "objections"]
+__all__ = ["exactness", "fit_warnings", "objections"]
 
 LARGEST_CONDITION = 30.0
 """Of the design matrix with columns of unit length: beyond it, intercept and slope are hardly
@@ -61,7 +61,7 @@ def objections(fit: Estimate) -> Iterator[str]:
     the toughness (10.5 J/m2) is abov
     the wear strength is negative (-4
     """
-    for reasons in (_misfit, _physical, _negative, _exact, _implausible):
+    for reasons in (_misfit, _physical, _negative, exactness, _implausible):
         yield from reasons(fit)
 
 
@@ -345,7 +345,16 @@ def _domain(fit: Estimate, chosen: ForceModel) -> Iterator[str]:
         )
 
 
-def _exact(fit: Estimate) -> Iterator[str]:
+def exactness(fit: Estimate) -> Iterator[str]:
+    """Yield why forces that are met to the last digit are no measurement; nothing of others.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> for sentence in exactness(identify([1e-4, 2e-4, 4e-4], [2.0, 3.0, 5.0], model="eq13")):
+    ...     print(sentence[:44])
+    the forces lie on the line to the last digit
+    """
     if fit.is_exact and fit.force_std is None:
         yield (
             f"the forces lie on the {_shape(fit)} to the last digit, which no measurement does: "

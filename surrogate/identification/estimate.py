@@ -13,8 +13,8 @@ from surrogate.basics.checks import LARGEST, Quantity
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.transition_radius import (
-    transition_radius,
-    wear_transition_radius,
+    transition_radius_of,
+    wear_transition_radius_of,
 )
 from surrogate.errors import DomainError
 from surrogate.identification.further_wire import FurtherWire, forces_of
@@ -235,19 +235,19 @@ class Estimate:
     @property
     def wear_transition_radius(self) -> float:
         """l_w/4 [m]; nan where an estimate is negative."""
-        return float(wear_transition_radius(self.scene(1.0))) if self.is_physical else np.nan
+        return float(wear_transition_radius_of(self.scene(1.0))) if self.is_physical else np.nan
 
     @property
     def transition_radius(self) -> float:
         """Radius at which the two terms of Eq. (13) are equal [m]; nan if one is negative."""
-        return float(transition_radius(self.scene(1.0), "eq13")) if self.is_physical else np.nan
+        return float(transition_radius_of(self.scene(1.0), "eq13")) if self.is_physical else np.nan
 
     @property
     def model_transition_radius(self) -> float:
         """Radius at which both parts of the model's force are equal [m]; nan beyond the model."""
         with suppress(DomainError):
             if self.is_physical:
-                return float(transition_radius(self.scene(1.0), self.model))
+                return float(transition_radius_of(self.scene(1.0), self.model))
         return np.nan
 
     @property

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surrogate.choosing.by_name import force_model
+from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import InputError
-from surrogate.maps.axes import COORDINATES, Coordinate
+from surrogate.maps.axes import COORDINATES
+from surrogate.maps.points import relative_std, value_of
+from surrogate.maps.scenes import DEFAULTS
 
 if TYPE_CHECKING:
     from surrogate.maps.points import MapPoints
@@ -20,7 +24,7 @@ SAME = 0.05
 
 
 def require_the_same(points: MapPoints, made: MapRecord) -> None:
-    """Refuse points of which a quantity or group is not what the map fixes.
+    """Refuse points of which a quantity or group is not what the map is drawn for.
 
     Parameters
     ----------
@@ -32,37 +36,37 @@ def require_the_same(points: MapPoints, made: MapRecord) -> None:
     Raises
     ------
     InputError
-        If what the map fixes differs by more than `SAME` and by more than two of the points'
-        standard errors.
+        If what the map fixes, or takes where nothing fixes it, differs by more than `SAME` and by
+        more than two of the points' standard errors, or the law is another.
     """
-    for name, fixed in made.fixed.items():
+    if points.law is not None and points.law != (law := force_model(made.model).law):
+        raise InputError(
+            f"{points.label} must be of the map's law, {law!r}, but its wear strength was "
+            f"identified by the law {points.law!r}; draw the map by law={points.law!r}, or leave "
+            "the points out."
+        )
+    for name, fixed in [*made.fixed.items(), *_taken(made)]:
         group = COORDINATES[name]
         with np.errstate(all="ignore"):
-            value = _value(points, group)
-            allowed = np.fmax(SAME, 2.0 * _relative_std(points, group)) * fixed
+            value = value_of(points, group)
+            std = np.where(value == 0.0, 0.0, value * relative_std(points, group))
+            allowed = np.fmax(SAME * fixed, 2.0 * std)
             off = ~((np.abs(value - fixed) <= allowed) | np.equal(value, fixed))
         if np.any(off):
             unit = f" {group.unit}" if group.unit else ""
             other = np.ravel(np.broadcast_to(value, np.shape(off)))[np.argmax(np.ravel(off))]
+            fixes = "fixes" if name in made.fixed else "has, as nothing fixes it,"
             raise InputError(
                 f"{points.label} must be of what the map is drawn for, but its {group.words} is "
-                f"{other:.4g}{unit} where the map fixes {fixed:.4g}{unit}; draw the map for it, or "
-                "leave the points out."
+                f"{other:.4g}{unit} where the map {fixes} {fixed:.4g}{unit}; draw the map for it, "
+                "or leave the points out."
             )
 
 
-def _value(points: MapPoints, group: Coordinate) -> Any:
-    value: Any = 1.0
-    for quantity, power in group.powers.items():
-        value = value * np.power(getattr(points.scene, quantity), float(power))
-    return value
-
-
-def _relative_std(points: MapPoints, group: Coordinate) -> Any:
-    """Return the relative standard error of a quantity or group, to first order."""
-    variance: Any = 0.0
-    for quantity, power in group.powers.items():
-        std = np.asarray(points.std.get(quantity, 0.0))
-        relative = np.divide(power * std, getattr(points.scene, quantity))
-        variance = variance + np.where(std == 0.0, 0.0, relative**2)
-    return np.sqrt(variance)
+def _taken(made: MapRecord) -> list[tuple[str, float]]:
+    """Return what a map takes for quantities that nothing given depends on, if it matters."""
+    given = [*made.fixed, made.x.name, made.y.name]
+    touched = {quantity for name in given for quantity in COORDINATES[name].powers}
+    if isinstance(force_model(made.model), ClosedForm):
+        touched.add("stiffening_exponent")  # on which no closed form depends
+    return [(name, value) for name, value in DEFAULTS.items() if name not in touched]

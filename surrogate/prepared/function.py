@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from surrogate.basics.checks import FloatOrArray, Quantity, broadcast_shape
 from surrogate.basics.elementwise import AT_ONCE, apply
 from surrogate.basics.records import number
+from surrogate.contact.fitted import PROJECTED
 from surrogate.errors import DomainError, InputError
 from surrogate.prepared.inverse import inverse, is_monotonic
+from surrogate.prepared.namespaces import evaluate_elsewhere, is_foreign
 from surrogate.prepared.plan import ARC, LOAD, Plan
 from surrogate.scene import NAMES, QUANTITIES
 
@@ -22,8 +24,6 @@ __all__ = ["OUTSIDE", "ForceFunction"]
 
 RAISE, NAN = "raise", "nan"
 OUTSIDE = (RAISE, NAN)
-SINGLE = 2.0**-24
-"""Relative error of rounding to float32."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +32,11 @@ class ForceFunction:
 
     A call takes them in the order of `varying`, or by their names, as floats or arrays that
     broadcast, in SI units. ``outside="nan"`` answers nan where a value is outside its range, and
-    for nan, instead of refusing all; ``out=`` takes an array for the result, of float64 or
-    float32. Arrays of another library that follows the Array API are evaluated there.
+    for nan, instead of refusing all. ``out=`` takes an array for the result, of float64 or
+    float32, which may be the argument itself. Arrays of float32 are answered in float32: all is
+    reckoned in float64 and rounded at the end, so that the result is off by a further 2**-24 of
+    itself at most (6e-8; between 1.2e-38 and 3.4e38 N/m, beyond which it is infinite). Arrays of
+    another library that follows the Array API are evaluated there, in their own precision.
 
     Parameters
     ----------
@@ -41,7 +44,7 @@ class ForceFunction:
         How it is evaluated.
     relative_error : float
         Proven bound of the relative error beside the finite elements of the frictionless contact,
-        anywhere in the ranges [-]; nan where the model has none.
+        anywhere in the ranges [-], under the law of dissipation; nan where there is none.
     data : mapping of str to str
         What the coefficients come from.
 
@@ -90,6 +93,11 @@ class ForceFunction:
             if self.plan.ranges[strengths[term]][1] > 0.0
         }
 
+    @property
+    def law(self) -> str:
+        """The law of dissipation, "projected" or "slip"."""
+        return self.plan.law
+
     @cached_property
     def quantities(self) -> tuple[Quantity, ...]:
         """The quantities that vary, with their ranges."""
@@ -107,10 +115,10 @@ class ForceFunction:
 
     @cached_property
     def _one(self) -> Any:
-        """The range and the function of the one quantity that varies; else what admits nothing."""
+        """The range, the function of floats and that of arrays, of one quantity; else no range."""
         if len(self.varying) != 1:
-            return np.inf, -np.inf, None
-        return *self.plan.ranges[self.varying[0]], self.plan.one_number
+            return np.inf, -np.inf, None, None
+        return *self.plan.ranges[self.varying[0]], self.plan.one_number, self.plan.straight
 
     def __call__(
         self, *values: ArrayLike, outside: str = RAISE, out: Any = None, **named: ArrayLike
@@ -124,21 +132,29 @@ class ForceFunction:
         DomainError
             If a value is outside its range and `outside` is not "nan".
         """
-        if len(values) == 1 and out is None:
+        if len(values) == 1:
             value = values[0]
-            low, high, force = self._one
-            if type(value) is float and low <= value <= high and outside in OUTSIDE:
-                return force(value)
+            low, high, force, straight = self._one
+            if type(value) is float:
+                if out is None and low <= value <= high and outside in OUTSIDE:
+                    return force(value)
+            elif straight is not None and _is_inside(value, low, high) and outside in OUTSIDE:
+                return _filled(straight.of, value, out)
+        return self._of_anything(values, named, outside, out)
+
+    def _of_anything(self, values: Any, named: dict[str, Any], outside: str, out: Any) -> Any:
         arguments = self._arguments(values, named)
         if outside not in OUTSIDE:
             raise InputError(
                 f"outside must be 'raise' or 'nan', but is {outside!r}; give one of them."
             )
-        namespace = _other_namespace(arguments)
-        if namespace is not None:
-            from surrogate.prepared.namespaces import evaluate_elsewhere
-
-            return evaluate_elsewhere(self, namespace, arguments, outside)
+        if any(map(is_foreign, arguments)):
+            if out is not None:
+                raise InputError(
+                    "out must be left out with arrays of another library, which has its own; "
+                    "give arrays of numpy, or no out."
+                )
+            return evaluate_elsewhere(self, arguments, outside)
         single = _is_single(arguments)
         checked, wrong = self._checked(arguments, outside)
         broadcast_shape(self.varying, tuple(checked))
@@ -146,9 +162,10 @@ class ForceFunction:
         if wrong is not False:
             result = np.where(wrong, np.nan, result)
             result = float(result) if result.ndim == 0 else result
-        if out is not None:
-            return _put(result, out)
-        return result.astype(np.float32) if single and isinstance(result, np.ndarray) else result
+        if out is None and not (single and isinstance(result, np.ndarray)):
+            return result
+        room = np.empty(result.shape, np.float32) if out is None else out
+        return _put(result, room)
 
     def _arguments(self, values: tuple[Any, ...], named: dict[str, Any]) -> list[Any]:
         arguments = dict(zip(self.varying, values, strict=False))
@@ -181,8 +198,8 @@ class ForceFunction:
     def _evaluated(self, values: list[FloatOrArray]) -> Any:
         """Return the force of checked values."""
         fixed, names, plan = self.plan.fixed, self.varying, self.plan
-        if plan.straight and isinstance(values[0], np.ndarray):
-            return apply(plan.of_radii, values, (float,), AT_ONCE)
+        if plan.straight is not None and isinstance(values[0], np.ndarray):
+            return plan.straight.of(values[0])
         if len(names) == 1 and isinstance(values[0], float):
             return plan.one_number(values[0])
 
@@ -276,20 +293,10 @@ class ForceFunction:
             for name, (low, high) in self.ranges.items()
         )
         models = ", ".join(f"{term} by {model}" for term, model in self.terms.items())
-        return (
-            f"F_ss/T over {ends}; {models or 'cleavage alone'}; "
-            f"error up to {100.0 * self.relative_error:.2g} %"
-        )
-
-
-def _other_namespace(values: list[Any]) -> Any:
-    """Return the Array API of the first array that is not numpy's, or None."""
-    for value in values:
-        if not isinstance(value, (float, int, np.ndarray, np.generic)):
-            space = getattr(value, "__array_namespace__", None)
-            if space is not None:
-                return space()
-    return None
+        law = "" if self.law == PROJECTED else f", law of {self.law}"
+        known = self.relative_error == self.relative_error
+        error = f"up to {100.0 * self.relative_error:.2g} %" if known else "unknown"
+        return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; error {error}"
 
 
 def _is_single(values: list[Any]) -> bool:
@@ -297,13 +304,41 @@ def _is_single(values: list[Any]) -> bool:
     return bool(kinds) and all(kind == np.float32 for kind in kinds)
 
 
+def _is_inside(value: Any, low: float, high: float) -> bool:
+    """Return whether a value is an array of floating-point numbers between the ends."""
+    return (
+        type(value) is np.ndarray
+        and value.dtype in (np.float64, np.float32)
+        and bool(value.ndim and value.size)
+        and low <= float(value.min())
+        and float(value.max()) <= high
+    )
+
+
+def _filled(function: Callable[..., Any], value: Any, out: Any) -> Any:
+    """Return a function of an array with its own dtype, or put it into `out`."""
+    if out is None:
+        return function(value, np.empty(value.shape, value.dtype))
+    _require_room(out, value.shape)
+    if out.flags.c_contiguous and (out is value or not np.may_share_memory(out, value)):
+        return function(value, out)
+    return _put(function(value), out)
+
+
 def _put(result: Any, out: Any) -> NDArray[Any]:
+    _require_room(out, np.shape(result))
+    with np.errstate(over="ignore", under="ignore"):
+        np.copyto(out, result, casting="same_kind")
+    return out  # type: ignore[no-any-return]
+
+
+def _require_room(out: Any, shape: tuple[int, ...]) -> None:
     if not isinstance(out, np.ndarray) or out.dtype not in (np.float64, np.float32):
         raise InputError("out must be an array of float64 or float32; give one, or none.")
-    if out.shape != np.shape(result):
+    if not out.flags.writeable:
+        raise InputError("out must be an array to write to, but is read-only; give another.")
+    if out.shape != shape:
         raise InputError(
-            f"out must have the shape of the result, {np.shape(result)}, but has {out.shape}; "
+            f"out must have the shape of the result, {shape}, but has {out.shape}; "
             "give such an array, or none."
         )
-    np.copyto(out, result, casting="same_kind")
-    return out

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.contact.table import CellTable
+from surrogate.contact.table import CellTable, cubics
 
 __all__ = ["Line", "line_of", "summed"]
 
@@ -49,11 +49,6 @@ class Line:
     pieces: Array
 
     @cached_property
-    def columns(self) -> list[Array]:
-        """The coefficients by their power."""
-        return list(np.ascontiguousarray(self.pieces.T))
-
-    @cached_property
     def rows(self) -> list[tuple[float, ...]]:
         """The coefficients by piece, as numbers."""
         return [tuple(row) for row in self.pieces.tolist()]
@@ -72,23 +67,21 @@ class Line:
 
         `side` is -1 or 1 where all points are known to be short of or past the touch.
         """
-        x *= self._rate(x, side)
-        x += self.short
-        piece = x.astype(np.intp)
-        x -= piece
-        return piece, x
-
-    def _rate(self, x: Array, side: int) -> Any:
         if side:
-            return self.before if side < 0 else self.after
-        return np.where(x < 0.0, self.before, self.after)
+            x *= self.before if side < 0 else self.after
+        else:
+            past = self.after * x  # both cross at the touch, and the quicker way to choose is this
+            x *= self.before
+            (np.minimum if self.before >= self.after else np.maximum)(x, past, out=x)
+        x += self.short
+        whole = np.trunc(x)
+        x -= whole
+        return whole.astype(np.intp), x
 
     def values(self, piece: NDArray[np.intp], t: Array) -> Array:
         """Return the values at places in pieces."""
-        result, taken = self.columns[3].take(piece, mode="clip"), np.empty(t.shape)
-        for column in self.columns[2::-1]:
-            result *= t
-            result += column.take(piece, out=taken, mode="clip")
+        result = np.empty(t.shape)
+        cubics(self.pieces, piece, t, result, np.empty((*t.shape, 4)))
         return result
 
     def at(self, log_g: Array) -> Array:

@@ -8,7 +8,7 @@ one alpha the table is a `Line`; where also tau_w, xi and mu are fixed, both lin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -17,9 +17,11 @@ import numpy as np
 
 from surrogate.basics.elementwise import log
 from surrogate.contact.closed_forms import ClosedForm
+from surrogate.contact.fitted import PROJECTED
 from surrogate.contact.table import TableModel
 from surrogate.prepared.line import Line, line_of, summed
 from surrogate.prepared.proof import g_range
+from surrogate.prepared.straight import Straight
 from surrogate.scene import NAMES
 
 __all__ = ["ALPHA", "ARC", "GAMMA", "LOAD", "MU", "RADIUS", "WEAR", "XI", "Plan"]
@@ -27,6 +29,8 @@ __all__ = ["ALPHA", "ARC", "GAMMA", "LOAD", "MU", "RADIUS", "WEAR", "XI", "Plan"
 ARC, LOAD = "arc", "normal_load"
 ROUNDING = 1e-9
 MU, GAMMA, RADIUS, XI, WEAR, ALPHA = NAMES
+FACTORS = {ARC: (WEAR, RADIUS), LOAD: (RADIUS, XI, MU)}
+"""What A and B, or what stands for them, are multiplied by, beside 2."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +49,8 @@ class Plan:
         What gives the terms named by `of_table`.
     of_table : tuple of str
         "arc" and "normal_load", as far as the table gives them.
+    law : str
+        The law of dissipation, which says what these are; that of the table.
     """
 
     varying: tuple[str, ...]
@@ -52,6 +58,7 @@ class Plan:
     form: ClosedForm
     table: TableModel | None = field(repr=False)
     of_table: tuple[str, ...]
+    law: str = PROJECTED
 
     @cached_property
     def fixed(self) -> dict[str, float]:
@@ -82,67 +89,76 @@ class Plan:
     def one_number(self) -> Callable[[float], float]:
         """The force of the one quantity that varies, as a function of a float."""
         (name,) = self.varying
-        if self.straight:
-            return self._of_radius()
+        if self.straight is not None:
+            return self.straight.number
         fixed = self.fixed
         return lambda value: float(self.of(**fixed, **{name: value}))
 
-    @property
-    def straight(self) -> bool:
-        """Whether a call is no more than one logarithm and one cubic: of the radius alone."""
-        return self.varying == (RADIUS,) and self.one_line is not None
-
-    @property
-    def _straight(self) -> tuple[Line, float, float, float]:
-        """The line, ln(Gamma_o/mu) - ln g_touch, and the force without the line and its slope."""
-        assert self.one_line is not None
-        mu, gamma = self.fixed[MU], self.fixed[GAMMA]
-        constant = gamma + self._free(mu, gamma, 0.0)
-        start = float(np.log(gamma / mu)) - self.one_line.touch
-        return self.one_line, start, constant, self.free_slope
-
-    def _of_radius(self) -> Callable[[float], float]:
-        line, start, constant, slope = self._straight
-        rows, before, after, short, ln = line.rows, line.before, line.after, line.short, np.log
-
-        def force(radius: float) -> float:
-            x = start - float(ln(radius))
-            t = (before if x < 0.0 else after) * x + short
-            piece = int(t)
-            t -= piece
-            a, b, c, d = rows[piece]
-            return constant + radius * (slope + (a + t * (b + t * (c + t * d))))
-
-        return force
-
-    def of_radii(self, radius: Any) -> Any:
-        """Do the same as the function of a float for a block of radii."""
-        line, start, constant, slope = self._straight
-        x = log(radius)
-        np.subtract(start, x, out=x)
-        result = line.values(*line.place(x, self._side))
-        result += slope
-        result *= radius
-        result += constant
-        return result
-
     @cached_property
-    def _side(self) -> int:
-        """-1 or 1 where the whole range is short of or past the touch, else 0."""
-        assert self.one_line is not None
-        first, last = (g * float(np.exp(-self.one_line.touch)) for g in self.g_ends())
+    def straight(self) -> Straight | None:
+        """The force of the one quantity that varies at one alpha; None elsewhere."""
+        if len(self.varying) != 1 or self.varying == (ALPHA,):
+            return None
+        (name,) = self.varying
+        products = [(self._product(*term, name), name in term[1]) for term in self.free]
+        constant = sum(value for value, contains in products if not contains)
+        slope = sum(value for value, contains in products if contains)
+        factors = {term: self._product(2.0, names, name) for term, names in FACTORS.items()}
+        if name in (XI, WEAR):
+            log_g = log(self._product(1.0, (GAMMA,)) / self._product(1.0, (MU, RADIUS)))
+            for term, line in self.lines.items():
+                value = factors[term] * line.number(log_g)
+                constant, slope = (
+                    (constant, slope + value)
+                    if name in FACTORS[term]
+                    else (constant + value, slope)
+                )
+            return Straight(constant, slope, 0.0, 1.0, None, None)
+        return self._on_lines(name, constant, slope, factors)
+
+    def _on_lines(
+        self, name: str, constant: float, slope: float, factors: dict[str, float]
+    ) -> Straight:
+        """Return the force of a quantity that g depends on."""
+        times, plain = (
+            {term: line for term, line in self.lines.items() if (name in FACTORS[term]) is within}
+            for within in (True, False)
+        )
+        if not self.lines:
+            return Straight(constant, slope, 0.0, 1.0, None, None)
+        above = self._product(1.0, (GAMMA,), name)
+        start = log(above / self._product(1.0, (MU, RADIUS), name))
+        touch = next(iter(self.lines.values())).touch
+        return Straight(
+            constant,
+            slope,
+            start - touch,
+            1.0 if name == GAMMA else -1.0,
+            summed(times, factors) if times else None,
+            summed(plain, factors) if plain else None,
+            self._side(touch),
+        )
+
+    def _side(self, touch: float) -> int:
+        """Return -1 or 1 where the whole range is short of or past the touch, else 0."""
+        first, last = (g * float(np.exp(-touch)) for g in self.g_ends())
         return -1 if last < 1.0 - ROUNDING else 1 if first > 1.0 + ROUNDING else 0
 
-    @property
-    def free_slope(self) -> float:
-        """dF/dR_w [N/m^2] of the terms that the table does not give."""
-        mu, gamma = self.fixed[MU], self.ranges[GAMMA][0]
-        return self._free(mu, gamma, 1.0) - self._free(mu, gamma, 0.0)
+    @cached_property
+    def free(self) -> tuple[tuple[float, tuple[str, ...]], ...]:
+        """What the table does not give: coefficients of products of quantities, by their names."""
+        form = self.form
+        terms: list[tuple[float, tuple[str, ...]]] = [(1.0, (GAMMA,))]
+        if ARC not in self.of_table:
+            terms += [(form.arc_2, FACTORS[ARC])]
+        if LOAD not in self.of_table:
+            terms += [(form.load_2, FACTORS[LOAD]), (form.load_2_slope, (XI, GAMMA))]
+        return tuple(term for term in terms if term[0])
 
-    @property
-    def free_rise(self) -> float:
-        """dF/dGamma_o [-] of the cleavage and the terms that the table does not give."""
-        return 1.0 + self._free(self.fixed[MU], 1.0, 0.0)
+    def _product(self, coefficient: float, names: Sequence[str], without: str = "") -> float:
+        for name in names:
+            coefficient *= 1.0 if name == without else self.fixed[name]
+        return coefficient
 
     def g_ends(self) -> tuple[float, float]:
         """Return the ends of g."""
@@ -175,12 +191,6 @@ class Plan:
         slopes[3] = slopes[3] if LOAD in terms else 0.0
         slopes[4] = slopes[4] if ARC in terms else 0.0
         return slopes
-
-    def _free(self, mu: float, gamma: float, radius: float) -> float:
-        xi, wear = self.fixed[XI], self.fixed[WEAR]
-        friction, worn = self.form.terms(mu, gamma, radius, xi, wear, 2.0)
-        friction = 0.0 if LOAD in self.of_table else friction
-        return float(friction + (0.0 if ARC in self.of_table else worn))
 
     def of(self, **values: Any) -> Any:
         """Return the force of the six quantities, floats or arrays of one shape."""

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from surrogate.basics.checks import RTOL, items, mapping, one_number
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.choosing.candidates import FREE, TERMS, candidates
+from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
 from surrogate.choosing.choice import rounded_up
+from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
+from surrogate.contact.domain import Domain
 from surrogate.contact.table import TableModel
 from surrogate.errors import AccuracyError, DomainError, InputError
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import Plan
-from surrogate.prepared.proof import force_error, g_range, lowest_of_highest
+from surrogate.prepared.plan import ALPHA, Plan
+from surrogate.prepared.proof import force_error, g_range, lowest_of_highest, lowest_touch
 from surrogate.scene import NAMES, QUANTITIES, Scene
 
-__all__ = ["prepare"]
+__all__ = ["data_of", "prepare"]
 
 Ranges = dict[str, tuple[float, float]]
 DEFAULT_RTOL = 0.02
@@ -33,6 +35,7 @@ def prepare(
     ranges: Mapping[str, tuple[float, float]] | None = None,
     model: str = AUTO,
     rtol: float | None = None,
+    law: str = PROJECTED,
 ) -> ForceFunction:
     """Return the force as a function of the quantities that vary, decided and proven once.
 
@@ -50,10 +53,14 @@ def prepare(
         The lowest and the highest value of each of them, in SI units.
     model : str, default "auto"
         "auto" for what is cheapest and has a proven error of at most `rtol` all over the ranges,
-        term by term; "table"; "eq13", "high-toughness", "low-toughness" or "friction-free".
+        term by term; "table"; "eq13", "high-toughness", "low-toughness" or "friction-free". Under
+        the law "slip" the table is what there is, and "auto" stands for it.
     rtol : float, optional
-        Largest relative error of the force that will do [-]; None for any, which with "auto" is
-        0.02.
+        Largest relative error of the force that will do [-]; None for any, which with "auto" and
+        the law "projected" is 0.02.
+    law : str, default "projected"
+        The law of dissipation, as `cutting_force` takes it: "projected" for Eq. (S2), "slip" for
+        the balance of energy to first order in tau_w and xi.
 
     Returns
     -------
@@ -63,8 +70,8 @@ def prepare(
     Raises
     ------
     InputError
-        If a quantity is missing, unknown, out of range or no number, or the model cannot be
-        prepared.
+        If a quantity is missing, unknown, out of range or no number, the model cannot be
+        prepared, there is no such law, or the model does not have it.
     UnknownModelError
         If there is no such model.
     DomainError
@@ -75,7 +82,9 @@ def prepare(
     Notes
     -----
     Range of validity: the ranges. The bound of error holds all over them: it is made of the
-    measured bounds of all cells of (g, alpha) that they touch, not of samples.
+    measured bounds of all cells of (g, alpha) that they touch, not of samples. Under the law "slip"
+    there is none, and it is nan, where the ranges reach the g at which the crack's tip touches the
+    wire: the slip there depends on how sharp the tip is.
 
     References
     ----------
@@ -91,20 +100,28 @@ def prepare(
     0.244 mm
     """
     box = _box(fixed, varying, ranges)
-    names = tuple(varying)
+    chosen = of_law(model, law)
     tolerance = None if rtol is None else one_number(RTOL, rtol)
     terms = [term for term in TERMS if box[_STRENGTHS[term]][1] > 0.0]
-    if is_auto(model):
-        of_table, error = _cheapest(box, terms, DEFAULT_RTOL if tolerance is None else tolerance)
-        form: Any = FORCE_MODELS[FREE]
+    if is_auto(chosen):
+        parts = _cheapest(box, terms, DEFAULT_RTOL if tolerance is None else tolerance)
     else:
-        of_table, form, error = _named(model, box, terms)
-        _require(error, tolerance, repr(model))
-    if of_table:
-        _require_domain(box)
-    table: Any = candidates().fitted.models["table"] if of_table else None
+        parts = _named(chosen, box, terms)
+        where = "" if law == PROJECTED else ", as it is where the crack's tip touches the wire"
+        _require(parts.error, tolerance, repr(parts.name), where)
     _require_numbers(box)
-    return ForceFunction(Plan(names, box, form, table, of_table), error, _data(of_table))
+    plan = Plan(tuple(varying), box, parts.form, parts.table, parts.of_table, law)
+    return ForceFunction(plan, parts.error, data_of(parts.table))
+
+
+class _Parts(NamedTuple):
+    """What gives the terms: the table some of them, a closed form the others; and the error."""
+
+    name: str
+    of_table: tuple[str, ...]
+    table: TableModel | None
+    form: Any
+    error: float
 
 
 def _box(fixed: Any, varying: Any, ranges: Any) -> Ranges:
@@ -161,44 +178,63 @@ def _values(fixed: Any, varying: tuple[str, ...]) -> dict[str, Any]:
     return values
 
 
-def _cheapest(box: Ranges, terms: list[str], rtol: float) -> tuple[tuple[str, ...], float]:
-    """Return which terms the table is to give, as few as will do, and the bound of the error."""
+def _cheapest(box: Ranges, terms: list[str], rtol: float) -> _Parts:
+    """Return as few terms of the table as will do."""
     known = candidates()
     choices = [(), *((term,) for term in terms), tuple(terms)]
     errors = {}
     for choice in dict.fromkeys(choices):
-        models = {term: "table" if term in choice else FREE for term in terms}
+        models = {term: OUTSIDE if term in choice else FREE for term in terms}
         errors[choice] = force_error(known, box, models, {term: term for term in terms})
         if errors[choice] <= rtol:
-            return choice, errors[choice]
+            return _parts(known.fitted.models[OUTSIDE], choice, box, errors[choice])
     if terms:
-        _require_domain(box)
+        _require_domain(known.limits, box)
     _require(min(errors.values()), rtol, "the table")
     raise AssertionError("an error above rtol is refused")
 
 
-def _named(model: object, box: Ranges, terms: list[str]) -> tuple[tuple[str, ...], Any, float]:
-    """Return the terms of the table, the closed form and the bound of the error of a model."""
+def _parts(table: Any, of_table: tuple[str, ...], box: Ranges, error: float) -> _Parts:
+    """Return the terms of a table, beside Eq. (13)."""
+    if of_table:
+        _require_domain(table.limits, box)
+    return _Parts(table.name, of_table, table if of_table else None, FORCE_MODELS[FREE], error)
+
+
+def _named(model: object, box: Ranges, terms: list[str]) -> _Parts:
+    """Return the terms of a model."""
     chosen = force_model(model)
-    known = candidates() if isinstance(chosen, TableModel) or chosen.name == FREE else None
-    functions = {term: term for term in terms}
-    if known and isinstance(chosen, TableModel):
-        _require_domain(box)
-        error = force_error(known, box, dict.fromkeys(terms, "table"), functions)
-        return tuple(terms), FORCE_MODELS[FREE], error
+    if isinstance(chosen, TableModel):
+        return _parts(chosen, tuple(terms), box, _error_of_table(chosen, box, terms))
     if not isinstance(chosen, ClosedForm):
         raise InputError(
             "model must be one that a force can be prepared by, but "
             f"{chosen.name!r} is neither the table nor a closed form without a power; choose "
             "model='auto', 'table' or 'eq13'."
         )
-    error = force_error(known, box, dict.fromkeys(terms, FREE), functions) if known else math.nan
-    return (), chosen, error if error < math.inf else math.nan
+    error = math.nan
+    if chosen.name == FREE:
+        models, functions = dict.fromkeys(terms, FREE), {term: term for term in terms}
+        error = force_error(candidates(), box, models, functions)
+    return _Parts(chosen.name, (), None, chosen, error if error < math.inf else math.nan)
 
 
-def _require(error: float, rtol: float | None, who: str) -> None:
+def _error_of_table(table: TableModel, box: Ranges, terms: list[str]) -> float:
+    """Return the bound of the force's error; nan where nobody knows it."""
+    known = candidates()
+    if not terms:
+        return 0.0
+    if getattr(known.fitted.models[OUTSIDE], "table", None) is not table.table:
+        return math.nan  # the bounds are of another table
+    if table.law != PROJECTED and g_range(box)[1] >= lowest_touch(table.limits, box[ALPHA]):
+        return math.nan
+    functions = dict(zip(TERMS, table.rubbing, strict=True))
+    return force_error(known, box, dict.fromkeys(terms, OUTSIDE), functions)
+
+
+def _require(error: float, rtol: float | None, who: str, where: str = "") -> None:
     if rtol is not None and not error <= rtol:
-        known = f"is up to {error:.2g}" if error < math.inf else "is known to nobody"
+        known = f"is up to {error:.2g}" if error < math.inf else f"is known to nobody{where}"
         remedy = f"rtol={rounded_up(error)} or more" if error < math.inf else "rtol=None"
         raise AccuracyError(
             f"rtol must be met all over the ranges, but rtol = {rtol:g} is not: the error of {who} "
@@ -206,9 +242,8 @@ def _require(error: float, rtol: float | None, who: str) -> None:
         )
 
 
-def _require_domain(box: Ranges) -> None:
-    limits = candidates().limits
-    alpha, g = box["stiffening_exponent"], g_range(box)
+def _require_domain(limits: Domain, box: Ranges) -> None:
+    alpha, g = box[ALPHA], g_range(box)
     limits.alpha_quantity.checked(alpha[0])
     limits.alpha_quantity.checked(alpha[1])
     low, high = limits.g[0], lowest_of_highest(limits, alpha)
@@ -235,9 +270,9 @@ def _require_numbers(box: Ranges) -> None:
         )
 
 
-def _data(of_table: tuple[str, ...]) -> dict[str, str]:
+def data_of(table: TableModel | None) -> dict[str, str]:
     """Return where the coefficients come from."""
-    if not of_table:
+    if table is None:
         return {"source": "closed form of arXiv:2412.02021"}
     told = candidates().fitted.about.get("provenance", {})
     return {

@@ -14,14 +14,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from surrogate.choosing.candidates import TERMS, Candidates
-from surrogate.contact.domain import Domain
+from surrogate.contact.domain import ROUNDING, Domain
 
-__all__ = ["Ranges", "force_error", "g_range", "lowest_of_highest"]
+__all__ = ["Ranges", "force_error", "g_range", "lowest_of_highest", "lowest_touch"]
 
 Ranges: TypeAlias = "Mapping[str, tuple[float, float]]"
 
@@ -37,9 +37,20 @@ def g_range(ranges: Ranges) -> tuple[float, float]:
 
 
 def lowest_of_highest(limits: Domain, alpha: tuple[float, float]) -> float:
-    """Return the highest g up to which the domain reaches at every alpha of a range."""
+    """Return the highest g up to which the domain reaches at every alpha of a range.
+
+    It is that of `Domain.holds`, a rounding above the one that its logarithm gives.
+    """
     inner = [a for a, _ in limits.highest if alpha[0] < a < alpha[1]]
-    return min(float(limits.highest_g(a)) for a in (*alpha, *inner))
+    return min(float(limits.highest_g(a)) for a in (*alpha, *inner)) * ROUNDING
+
+
+def lowest_touch(limits: Domain, alpha: tuple[float, float]) -> float:
+    """Return the lowest g at which the crack's tip touches the wire at any alpha of a range."""
+    low, high = (float(np.log(a)) for a in alpha)
+    roots: Any = np.polynomial.Polynomial(limits.touch).deriv().roots()
+    level = [row.real for row in roots if abs(row.imag) < 1e-9 and low < row.real < high]
+    return math.exp(min(float(limits.log_touch(row)) for row in (low, high, *level)))
 
 
 def force_error(

@@ -12,11 +12,18 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.choosing.candidates import candidates
+from surrogate.contact.fitted import PROJECTED, SLIP
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
 from surrogate.prepared.plan import GAMMA, MU, RADIUS, Plan
-from surrogate.prepared.statements import COEFFICIENTS, arrays_of, cases_of, force_statements
+from surrogate.prepared.statements import (
+    COEFFICIENTS,
+    arrays_of,
+    cases_of,
+    force_statements,
+    highest_log_g,
+    leaves_table,
+)
 from surrogate.prepared.table_source import table_part
 from surrogate.scene import QUANTITIES
 from surrogate.version import __version__
@@ -25,6 +32,7 @@ __all__ = ["LANGUAGES", "source_of"]
 
 LANGUAGES = tuple(DIALECTS)
 TOLERANCE = 1e-12
+CLOSE = 1e-12  # by which ln g may miss the ends of the table's domain, as it is rounded
 _UNITS = {quantity.name: quantity.unit or "-" for quantity in QUANTITIES}
 
 
@@ -53,7 +61,7 @@ def source_of(force: Any, language: str) -> str:
         "remarks": dialect.remarks(_about(force, dialect)),
         "arguments": ", ".join(f"{'double ' * (language == 'c')}{n}" for n in plan.varying),
         "names": ", ".join(plan.varying),
-        "checks": "\n".join(_checks(plan, dialect, needs_g)),
+        "checks": "\n".join(_checks(plan, dialect)),
         "arrays": "\n".join(arrays_of(plan, dialect)),
         "table": table_part(plan.table, _functions(plan), dialect) if needs_g else "",
         "cases": _cases(force, dialect),
@@ -86,44 +94,55 @@ def _about(force: Any, dialect: Dialect) -> list[str]:
         for name, (low, high) in force.ranges.items()
     ]
     fixed = [f"  {name} = {value!r} [{_UNITS[name]}]" for name, value in plan.fixed.items()]
-    error = (
-        "unknown" if force.relative_error != force.relative_error else f"{force.relative_error:.3g}"
-    )
     models = ", ".join(f"{term} by {model}" for term, model in force.terms.items())
     where = ["g = toughness/(shear_modulus*wire_radius) in the domain of the table, too."]
     return [
         f"Steady cutting force F_ss/T [N/m], exported by wirecut {__version__}. MIT licence.",
-        "Law: F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B), Eq. (S2) of arXiv:2412.02021.",
+        f"Law: {_LAWS[plan.law]}",
         f"Terms: {models or 'cleavage alone'}. Data: {'; '.join(force.data.values())}.",
-        f"Relative error beside finite elements without shear on the wire: up to {error}.",
+        *_errors(force),
         "Arguments, in SI units, and their ranges:",
         *ends,
-        *(where if plan.of_table and not plan.lines else []),
+        *(where if leaves_table(plan) else []),
         *(["Fixed:", *fixed] if fixed else []),
         "check returns 0, or the number of the first argument out of range: no number is a force.",
         f"self_test returns 0, or the number of the first case that is not met to {TOLERANCE:g}.",
     ]
 
 
-def _checks(plan: Plan, dialect: Dialect, needs_g: bool) -> list[str]:
+_LAWS = {
+    PROJECTED: "F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B), Eq. (S2) of arXiv:2412.02021.",
+    SLIP: "F_ss/T = Gamma_o + 2 R_w (tau_w A* + xi mu B*), energy to first order in tau_w and xi.",
+}
+"""The laws in words."""
+
+
+def _errors(force: Any) -> list[str]:
+    """Return the lines that say how far the force may be off, and beside what."""
+    error, beside = force.relative_error, "Relative error beside finite elements without shear"
+    if error == error:
+        return [f"{beside} on the wire: up to {error:.3g}."]
+    lines = [f"{beside} on the wire: unknown."]
+    if force.law == SLIP:
+        lines += ["Where the crack's tip touches the wire the force depends on how sharp it is."]
+    return lines
+
+
+def _checks(plan: Plan, dialect: Dialect) -> list[str]:
     """Return the lines that return the number of the first argument out of range."""
+    joined = _AND[dialect.name]
     conditions = [
-        f"{name} >= {low!r} {_AND[dialect.name]} {name} <= {high!r}"
+        f"{name} >= {low!r} {joined} {name} <= {high!r}"
         for name, (low, high) in ((name, plan.ranges[name]) for name in plan.varying)
     ]
-    if needs_g:
-        limits = candidates().limits
-        highest = min([limits.g[1], *(g for _, g in limits.highest)])
-        g = f"{GAMMA}/({MU}*{RADIUS})"
-        conditions.append(f"{g} >= {limits.g[0]!r} {_AND[dialect.name]} {g} <= {highest!r}")
-    values = {name: repr(value) for name, value in plan.fixed.items()}
-    lines = []
-    for number, condition in enumerate(conditions, start=1):
-        if needs_g and number == len(conditions):
-            for name, value in values.items():
-                condition = condition.replace(name, value)
-        lines.append(_UNLESS[dialect.name].format(condition=condition, number=number))
-    return lines
+    if plan.table is not None and leaves_table(plan):
+        low, g = plan.table.limits.log_g[0], f"{dialect.log}({GAMMA}/({MU}*{RADIUS}))"
+        high = highest_log_g(plan.table.limits, dialect)
+        conditions.append(f"{g} >= {low - CLOSE!r} {joined} {g} <= {high} + {CLOSE!r}")
+    return [
+        _UNLESS[dialect.name].format(condition=condition, number=number)
+        for number, condition in enumerate(conditions, start=1)
+    ]
 
 
 _AND = {"c": "&&", "javascript": "&&", "matlab": "&&", "python": "and"}
@@ -136,7 +155,8 @@ _UNLESS = {
 
 
 def _cases(force: Any, dialect: Dialect) -> str:
-    rows = _whole_cases() if len(force.varying) == 6 else cases_of(force.plan)
+    plan = force.plan
+    rows = _whole_cases(plan.table.limits) if leaves_table(plan) else cases_of(plan)
     expected = [_value(force, row) for row in rows]
     numbers = [[*row.tolist(), value] for row, value in zip(rows, expected, strict=True)]
     flat = [value for row in numbers for value in row]
@@ -149,12 +169,11 @@ def _value(force: Any, row: Any) -> float:
     )
 
 
-def _whole_cases() -> Any:
+def _whole_cases(limits: Any) -> Any:
     """Return ten scenes in the domain of the table, near its ends and in the middle."""
-    limits = candidates().limits
-    highest = min([limits.g[1], *(g for _, g in limits.highest)])
-    g = np.geomspace(1.001 * limits.g[0], 0.999 * highest, 10)
-    alpha = np.linspace(*limits.alpha, 10)[[3, 0, 6, 9, 1, 8, 2, 5, 7, 4]]
+    alpha = np.linspace(limits.alpha[0], limits.alpha[1], 10)[[3, 0, 6, 9, 1, 8, 2, 5, 7, 4]]
+    lowest, highest = 1.001 * limits.g[0], 0.999 * limits.highest_g(alpha)
+    g = lowest * (highest / lowest) ** np.linspace(0.0, 1.0, 10)
     mu, radius, one = np.linspace(300.0, 3000.0, 10), np.geomspace(3e-3, 3e-5, 10), np.ones(10)
     return np.array([mu, g * mu * radius, radius, 0.1 * one, 3.0 * mu, alpha]).T
 

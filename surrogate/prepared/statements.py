@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
+from surrogate.contact.domain import Domain
 from surrogate.prepared.dialects import Dialect
 from surrogate.prepared.line import Line
 from surrogate.prepared.plan import ALPHA, ARC, GAMMA, LOAD, MU, RADIUS, WEAR, XI, Plan
+from surrogate.prepared.proof import lowest_of_highest
 
-__all__ = ["COEFFICIENTS", "arrays_of", "cases_of", "force_statements"]
+__all__ = [
+    "COEFFICIENTS",
+    "arrays_of",
+    "cases_of",
+    "force_statements",
+    "highest_log_g",
+    "leaves_table",
+]
 
 COEFFICIENTS = {ARC: "ARC", LOAD: "LOAD"}
 """Names of the arrays of A and B at one alpha."""
@@ -42,6 +53,28 @@ def force_statements(plan: Plan, dialect: Dialect) -> tuple[list[str], str]:
     text = "\n".join((*lines, total))
     constants = {n: v for n, v in plan.fixed.items() if re.search(rf"\b{n}\b", text)}
     return [*(_let(dialect, n, repr(v)) for n, v in constants.items()), *lines], total
+
+
+def leaves_table(plan: Plan) -> bool:
+    """Return whether scenes in the ranges may be outside the domain of the table."""
+    if plan.table is None:
+        return False
+    (low, high), limits = plan.g_ends(), plan.table.limits
+    return not (limits.g[0] <= low and high <= lowest_of_highest(limits, plan.ranges[ALPHA]))
+
+
+def highest_log_g(limits: Domain, dialect: Dialect) -> str:
+    """Return the expression of ln of the highest g of the domain at alpha."""
+    if not limits.highest:
+        return repr(limits.log_g[1])
+    rows, values = ([math.log(x) for x in each] for each in zip(*limits.highest, strict=True))
+    expression = repr(values[0])
+    for (row, after), (value, following) in zip(pairwise(rows), pairwise(values), strict=True):
+        if following != value:
+            slope = (following - value) / (after - row)
+            along = f"{dialect.lowest}({after - row!r}, {dialect.log}({ALPHA}) - {row!r})"
+            expression += f" + {slope!r}*{dialect.highest}(0.0, {along})"
+    return expression
 
 
 def _call(dialect: Dialect, name: str, g: str) -> str:

@@ -2,46 +2,58 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from surrogate.choosing.candidates import candidates
+from surrogate.choosing.by_name import force_model
+from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
+from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.prepared.function import ForceFunction
 from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
+from surrogate.prepared.preparing import data_of
 from surrogate.prepared.proof import force_error
 from surrogate.scene import NAMES
 
 __all__ = ["whole_table"]
 
 
-def whole_table(language: str) -> str:
+def whole_table(language: str, law: str = PROJECTED) -> str:
     """Return the table itself as a program: a force of all six quantities of a scene.
+
+    Parameters
+    ----------
+    language : str
+        "c", "javascript", "matlab" or "python".
+    law : str, default "projected"
+        The law of dissipation, "projected" or "slip".
 
     Raises
     ------
     InputError
-        If there is no such language, or no table.
+        If there is no such language or law, or no table.
 
     Examples
     --------
     >>> whole_table("python").count("def arc(g, alpha)")
     1
     """
-    known, terms = candidates(), ("arc", "normal_load")
-    ranges = {**_WIDE, ALPHA: known.limits.alpha}
-    table: Any = known.fitted.models["table"]
-    form: Any = FORCE_MODELS["eq13"]
-    told = known.fitted.about.get("provenance", {})
-    data = {
-        "source": "table of finite elements",
-        "data_date": str(told.get("data_date", "unknown")),
-    }
-    box = {**ranges, GAMMA: known.limits.g, MU: (1.0, 1.0), RADIUS: (1.0, 1.0)}
-    functions = {term: term for term in terms}
-    error = force_error(known, box, dict.fromkeys(terms, "table"), functions)
-    return ForceFunction(Plan(NAMES, ranges, form, table, terms), error, data).source(language)
+    table: Any = of_law(force_model(OUTSIDE), law)
+    form: Any = FORCE_MODELS[FREE]
+    plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law)
+    return ForceFunction(plan, _error(law), data_of(table)).source(language)
 
 
+def _error(law: str) -> float:
+    """Return the bound of the force's error all over the domain; nan where there is none."""
+    if law != PROJECTED:
+        return math.nan
+    known = candidates()
+    box = _WIDE | {ALPHA: known.limits.alpha, GAMMA: known.limits.g, MU: _ONE, RADIUS: _ONE}
+    return force_error(known, box, dict.fromkeys(TERMS, OUTSIDE), {term: term for term in TERMS})
+
+
+_ONE = 1.0, 1.0
 _WIDE = {
     MU: (1e-3, 1e12),
     GAMMA: (1e-9, 1e9),

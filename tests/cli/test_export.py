@@ -29,6 +29,17 @@ def test_it_writes_a_file_and_says_what_it_is(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["source"] == whole_table("javascript")
 
 
+def test_the_law_is_an_option(capsys):
+    scene, ranges = Scene(685.0, 1.6, 1.0, 0.0, 7750.0), {"wire_radius": (1e-4, 1e-3)}
+    command = ["export", "--format", "c", "--law", "slip"]
+    assert main([*command, *GEL, *RADIUS]) == 0
+    assert capsys.readouterr().out == prepare(scene, ranges=ranges, law="slip").source("c")
+    assert main([*command, "--table"]) == 0
+    assert capsys.readouterr().out == whole_table("c", "slip")
+    assert main([*command, *GEL, *RADIUS, "--rtol", "0.02"]) == 2
+    assert "where the crack's tip touches the wire" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

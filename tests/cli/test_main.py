@@ -50,10 +50,11 @@ def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
 
 
 def test_example_prints_the_papers_numbers(capsys):
-    assert run("identify --example --model eq13 --verbose") == 3  # they lie on a line
+    assert run("identify --example --model eq13 --verbose") == 0
     printed = capsys.readouterr().out
     for line in (
-        "^Do not use the numbers below: the forces lie on the line to the last",
+        r"^Gamma_o = 1\.6 \(interval unknown\) J/m2, tau_w = 7\.75 \(interval unknown\) kPa",
+        r"Warning: the forces of the example are read from the line that the paper publishes",
         "5 forces, read from the published line, from paam-wire-cutting.csv",
         r"cleavage toughness Gamma_o +1\.6 +J/m2",
         r"wear strength tau_w +7\.75 +kPa",
@@ -71,8 +72,16 @@ def test_example_prints_the_papers_numbers(capsys):
         assert re.search(line, printed), line
 
 
+def test_forces_on_a_line_that_nobody_explains_are_not_to_be_used(capsys, tmp_path):
+    copy = tmp_path / "cuts.csv"
+    copy.write_bytes(model_file("paam-wire-cutting.csv").read_bytes())
+    assert run(f"identify {copy} --shear-modulus 685Pa --model eq13") == 3
+    printed = capsys.readouterr().out
+    assert printed.startswith("Do not use the numbers below: the forces lie on the line to the")
+
+
 def test_json_of_identify_holds_the_same_in_si_units(capsys):
-    assert run("identify --example --model eq13 --json") == 3
+    assert run("identify --example --model eq13 --json") == 0
     record = json.loads(capsys.readouterr().out)
     assert record["toughness"] == pytest.approx(1.6)
     assert record["wear_strength"] == pytest.approx(7750.0)

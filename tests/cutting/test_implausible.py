@@ -13,8 +13,11 @@ from surrogate import (
     classify,
     cutting_force,
     force_gradient,
+    identify,
     propagate,
     regime_map,
+    transition_radius,
+    wear_transition_radius,
 )
 from surrogate.cli.main import main
 from surrogate.reading import plausibility
@@ -39,6 +42,13 @@ CALLS = {
     "force_gradient": lambda scene: force_gradient(scene, "eq13"),
     "propagate": lambda scene: propagate(scene, {"toughness": 0.1}, "eq13"),
 }
+
+
+RADII = {
+    "transition_radius": lambda scene: transition_radius(scene, "eq13"),
+    "wear_transition_radius": wear_transition_radius,
+}
+"""Calls on which the wire has no influence."""
 
 
 def scene(**changes):
@@ -131,3 +141,26 @@ def test_the_exit_codes_are_in_the_help(command, capsys):
     with pytest.raises(SystemExit):
         main([command, "--help"])
     assert "3 where a printed warning says not to use the answer" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", RADII)
+def test_transition_radii_warn_of_what_they_depend_on(name):
+    call = RADII[name]
+    with pytest.warns(ImplausibleInputWarning, match="wear strength") as caught:
+        answer = call(scene(tau=7.75e9))
+    assert caught[0].filename == __file__
+    assert answer > 0.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ImplausibleInputWarning)
+        assert call(scene(radius=0.2)) == call(scene())
+        call(scene(tau=[5e3, 7e3]))
+
+
+def test_an_identification_doubts_in_its_own_words_alone():
+    """Its lengths are asked of a scene that no caller gave."""
+    fit = identify([1e-4, 2e-4, 4e-4], [4.7e3, 7.9e3, 13.9e3], 685.0, model="eq13")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ImplausibleInputWarning)
+        assert fit.model_transition_radius > 0.0
+        assert fit.wear_length > 0.0
+    assert fit.objections

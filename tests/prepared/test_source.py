@@ -9,7 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-from surrogate import InputError, Scene, prepare
+from surrogate import InputError, Scene, cutting_force, prepare
+from surrogate.choosing.candidates import candidates
 from surrogate.prepared.source import LANGUAGES
 from surrogate.prepared.whole_table import whole_table
 
@@ -21,6 +22,7 @@ BOX = {
     "stiffening_exponent": (2.0, 4.0),
 }
 USUAL = {"wire_radius": (1e-4, 1e-3)}
+STIFF = {"toughness": (1.0, 51.0), "stiffening_exponent": (4.0, 9.0)}  # g up to 298
 FORCES = {
     "radius": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, model="table"),
     "wear alone": prepare(Scene(685.0, 1.6, 1e-4, 0.0, 7750.0), ranges=USUAL),
@@ -28,6 +30,9 @@ FORCES = {
     "cleavage": prepare(Scene(685.0, 1.6, 1e-4), ranges=USUAL),
     "two models": prepare(Scene(685.0, 1.6, 1e-4, 1e-6, 7750.0, 3.0), ranges=USUAL),
     "several": prepare(GEL, tuple(BOX), BOX, "table"),
+    "slip": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, law="slip"),
+    "slip, alpha": prepare(GEL, tuple(BOX), BOX, law="slip"),
+    "stiff": prepare(GEL, ("toughness", "stiffening_exponent"), STIFF, "table"),
     "alpha": prepare(GEL, ("stiffening_exponent",), {"stiffening_exponent": (2.0, 9.0)}, "table"),
 }
 
@@ -138,26 +143,28 @@ def test_what_is_out_of_range_has_a_number_and_no_force(language, tmp_path):
     assert np.all(np.isnan(forces))
 
 
+@pytest.mark.parametrize("law", ["projected", "slip"])
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_whole_table(language, tmp_path):
-    from surrogate import cutting_force
-    from surrogate.choosing.candidates import candidates
-
+def test_the_whole_table(language, law, tmp_path):
     limits = candidates().limits
     random = np.random.default_rng(4)
-    highest = min([limits.g[1], *(g for _, g in limits.highest)])
-    g = np.exp(random.uniform(np.log(limits.g[0]), np.log(highest), 300))
     alpha = random.uniform(*limits.alpha, 300)
-    alpha[:2] = limits.alpha
+    alpha[:7] = [*limits.alpha, *(a for a, _ in limits.highest), 3.5]
+    highest = limits.highest_g(alpha)
+    g = limits.g[0] * (highest / limits.g[0]) ** random.uniform(size=300)
+    g[:7] = highest[:7]
     mu, radius, xi = 685.0 * np.ones(300), 1e-4 * np.ones(300), random.uniform(0.0, 1.0, 300)
     scene = Scene(mu, g * mu * radius, radius, xi, 10.0 * mu * random.uniform(size=300), alpha)
-    rows = np.array(scene.values()).T.tolist()
-    text = whole_table(language)
-    forces, codes, wrong = RUNNERS[language](
-        text, [*rows, [*rows[0][:1], 1e3, *rows[0][2:]]], tmp_path
-    )
-    assert (wrong, set(codes[:-1]), codes[-1]) == (0, {0}, 7)
-    np.testing.assert_allclose(forces[:-1], cutting_force(scene, "table").total, rtol=1e-12)
+    rows = np.array(scene.values()).T
+    above, below = rows[:7].copy(), rows[:7].copy()
+    above[:, 1] = 1.000001 * highest[:7] * 685.0 * 1e-4
+    below[:, 1] = 0.999999 * limits.g[0] * 685.0 * 1e-4
+    text = whole_table(language, law)
+    every = np.vstack([rows, above, below]).tolist()
+    forces, codes, wrong = RUNNERS[language](text, every, tmp_path)
+    assert (wrong, set(codes[:300]), set(codes[300:])) == (0, {0}, {7})
+    there = cutting_force(scene, "table", law=law).total
+    np.testing.assert_allclose(forces[:300], there, rtol=1e-12)
     if language == "javascript":
         assert len(text) < 250_000
 
@@ -176,5 +183,8 @@ def test_the_header_tells_what_it_is():
         ):
             assert words in head, (language, words)
         assert f"up to {force.relative_error:.3g}" in head
+    head = FORCES["slip"].source("c")[:2000]
+    for words in ("tau_w A* + xi mu B*", "unknown", "tip touches the wire", "wear by table"):
+        assert words in head
     with pytest.raises(InputError, match="language must be one of"):
         force.source("fortran")
