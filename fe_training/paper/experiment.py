@@ -188,7 +188,7 @@ class Experiment:
             scene = self.scene(mode, self.cuts.wire_radius)
             force = cutting_force(scene, self.model).total
             lines.append([f"model `{self.model}`", *_row(mode, scene, force - self.cuts.force)])
-        head = ["law", "Gamma_o [J/m2]", "tau_w [kPa]", "g of the wires"]
+        head = ["law", r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", "$g$ of the wires"]
         return markdown_table([*head, "largest difference [N/m]"], lines)
 
 
