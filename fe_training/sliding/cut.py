@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fe_training.sliding.balance import Support, slip_power, steady_force
 from fe_training.sliding.equilibrium import Problem
 from fe_training.sliding.leg import Leg, Point
+from fe_training.sliding.limit import limit_of
 from fe_training.sliding.path import SlidingStalledError, Steps, attempt, follow
 from fe_training.sliding.record import (
     BALANCE_BOUND,
@@ -33,10 +34,6 @@ Array = NDArray[np.float64]
 #: Shares of the scatter of det F from which on elements are split: after a step that leaves more
 #: than the whole of it, and where a path stalls.
 _SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25,)
-
-#: A path that ends has met the limit of the load where dJ/dx_w fell below this share of what it is
-#: without load, and along a line to 0 would vanish within this share of the load.
-_LIMIT_RATE, _LIMIT_REACH = 0.25, 0.25
 
 #: The stretch of the face is looked at beyond this many notch radii.
 _NOTCH_REACH = 10.0
@@ -125,7 +122,7 @@ class SlidingCut:
             )
 
     def _ended(self, error: SlidingStalledError) -> SlidingEndError:
-        load, limit = self.point.load, self._limit()
+        load, limit = self.point.load, limit_of(self._rates)
         if limit is not None:
             return SlidingEndError(
                 SlidingOutcome.LIMIT,
@@ -138,19 +135,6 @@ class SlidingCut:
             f"no equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g} "
             f"({error.outcome.value})",
         )
-
-    def _limit(self) -> Load | None:
-        """Return the load at which dJ/dx_w would vanish, if the path ended near one."""
-        if len(self._rates) < 3:
-            return None
-        first, (before, earlier), (rate, load) = self._rates[0][0], *self._rates[-2:]
-        if not rate < min(before, _LIMIT_RATE * first):
-            return None
-        left = rate / (before - rate)
-        limit = load.plus(load.plus(earlier, -1.0), left)
-        near = limit.plus(load, -1.0)
-        close = near.friction <= _LIMIT_REACH * load.friction
-        return limit if close and near.wear <= _LIMIT_REACH * load.wear else None
 
     def _adapted(self, leg: Leg, here: float) -> bool:
         """Refine where det F scatters too much; return whether there was anything to refine."""

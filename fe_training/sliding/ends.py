@@ -21,8 +21,9 @@ from fe_training.sliding.state import SlidingState
 #: and before Newton's method counts as going in a circle.
 _FLIPS, _LAST_FLIPS, _MOST_FLIPS = 2, 6, 9
 
-#: Pull up to which a node that goes on changing is held, relative to the total contact force.
-_HOLD = 1e-4
+#: Pull up to which a node that goes on changing is held, relative to the mean force of those that
+#: touch.
+_HOLD = 0.05
 
 
 class Ends:
@@ -50,7 +51,7 @@ class Ends:
 
     def _held(self, there: SlidingState) -> NDArray[np.bool_]:
         """Return which nodes stay although they are pulled, having found no rest otherwise."""
-        allowed = _HOLD * float(np.abs(there.force).sum())
+        allowed = _HOLD * float(np.abs(there.force).sum()) / max(int(there.active.wire.sum()), 1)
         return np.asarray((self.flips > _LAST_FLIPS) & (there.force > -allowed))
 
     def updated(self, there: SlidingState) -> SlidingState:
