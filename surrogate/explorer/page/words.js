@@ -44,7 +44,18 @@ function wire(state, radius, count = 3) {
 // The size of a wire alone, after another has been named with its letter.
 const sizeAlone = (state, radius) => wire(state, radius).split("\u00a0=\u00a0")[1];
 
-// Why a state has no force, in words, with the remedy; an empty text where it has one.
+const TOO_LARGE = "The force is beyond the range of numbers; none is shown. Check the units.";
+
+// Why a state has no force by a law, in words; an empty text where it has one.
+function refusalOf(law, state) {
+  const refused = refusal(state);
+  if (refused) return refused;
+  const force = forceOf(law, state);
+  if (!force) return law.refusal(state);
+  return Number.isFinite(force.total) ? "" : TOO_LARGE;
+}
+
+// Why a state has no force by any law, with the remedy; an empty text where it has one.
 function refusal(state) {
   for (const q of DATA.quantities) {
     const value = state[q.key];
@@ -61,8 +72,7 @@ function refusal(state) {
       + "is shown, because the table is not continued beyond its ends.";
   }
   if (holds(g, alpha)) {
-    return Number.isFinite(forceOf(lawOf(state.law), state).total) ? ""
-      : "The force is beyond the range of numbers; none is shown. Check the units.";
+    return Number.isFinite(forceOf(LAWS[0], state).total) ? "" : TOO_LARGE;
   }
   const [thinnest, thickest] = radiiOf(state), high = g > highestG(alpha);
   return `g = Γ_o/(μ R_w) = ${digits(g)} is outside the table, which covers `
@@ -93,13 +103,14 @@ function saysDominant(force) {
 
 function saysStretches(law, state) {
   const stretches = stretchesOf(law, state);
-  const does = (part) => part === DATA.transition ? "no part" : part;
+  const does = (part) => part === null ? law.beyond : part === DATA.transition ? "no part" : part;
   const covered = saysCovered(state);
   if (stretches.length === 1) return `So it is with every wire that the table covers${covered}.`;
   const told = stretches.map(({part, to}, i) => {
     const end = i === 0 ? wire(state, to) : sizeAlone(state, to);
     const reach = i < stretches.length - 1 ? `up to ${end}` : "with thicker wires";
-    return i === 0 ? `${does(part)} dominates ${reach}` : `${does(part)} ${reach}`;
+    const first = i === stretches.findIndex((one) => one.part !== null);
+    return first ? `${does(part)} dominates ${reach}` : `${does(part)} ${reach}`;
   });
   return `In this solid ${listed(told)}${covered}.`;
 }
@@ -117,6 +128,8 @@ function saysTransition(law, state) {
     never: "Without wear and friction the radius does not matter.",
     below: "The transition radius is beyond the thickest wire that the table covers.",
     above: "The transition radius is below the thinnest wire that the table covers.",
+    beyond: "The transition radius is beyond the solutions: where it would be, none with as much friction and "
+      + "wear is near.",
   };
   if (transition.why) return words[transition.why];
   return `Transition radius: at ${wire(state, transition.radius)} what the radius changes becomes as large `
@@ -141,9 +154,9 @@ function saysError(law, force) {
 
 // Everything that is said about a state, sentence by sentence.
 function sentencesOf(state) {
-  const refused = refusal(state);
+  const law = lawOf(state.law), refused = refusalOf(law, state);
   if (refused) return [refused];
-  const law = lawOf(state.law), force = forceOf(law, state), inside = holds(force.g, state.alpha);
+  const force = forceOf(law, state), inside = holds(force.g, state.alpha);
   return [
     saysDominant(force),
     ...(rubs(state) ? [saysStretches(law, state)] : []),
