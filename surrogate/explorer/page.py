@@ -125,9 +125,7 @@ def explorer_page(
         "version": __version__,
         "data_date": data_date(known),
         "data": _json(numbers),
-        "scripts": "\n".join(
-            [_program(known), *(_part(f"{name}.js") for name in SCRIPTS if _is_known(name, numbers))]
-        ),
+        "scripts": "\n".join([_program(known), *_scripts(numbers)]),
     }
     page = _part("page.html")
     for name, text in parts.items():
@@ -149,8 +147,10 @@ def _part(name: str) -> str:
     return Path(__file__).with_name("page").joinpath(name).read_text(encoding="utf-8")
 
 
-def _is_known(script: str, numbers: Mapping[str, Any]) -> bool:
-    return script != COUPLED or COUPLED in numbers
+def _scripts(numbers: Mapping[str, Any]) -> list[str]:
+    """Return the parts of the program; that of the law "coupled" only where kappa is known."""
+    known = (name for name in SCRIPTS if name != COUPLED or COUPLED in numbers)
+    return [_part(f"{name}.js") for name in known]
 
 
 def _json(numbers: Any) -> str:
