@@ -7,10 +7,11 @@ const atPlace = (x, y, {xi, alpha}) => ({Gamma_o: 1, R_w: 1, mu: x, tau_w: y, xi
 
 const LOWEST = MAP.y[0]*1e-3, HIGHEST = MAP.y[1]*1e3;
 
-// The y between which a law has a force at one x: the longest stretch of them, or nan.
+// The y between which a law has a force at one x: the longest stretch of them, or nan. Gaps that are
+// narrower than a sixteenth of a decade may be missed.
 function coverAt(law, x, state) {
   const has = (y) => law.covers(1/x, atPlace(x, y, state));
-  const ys = spaced(LOWEST, HIGHEST, 8), stretches = [];
+  const ys = spaced(LOWEST, HIGHEST, 16), stretches = [];
   ys.forEach((y, i) => {
     if (!has(y)) return;
     const from = !i ? y : has(ys[i - 1]) ? null : changeBetween(has, ys[i - 1], y);
@@ -26,7 +27,7 @@ function edgeAt(law, part, x, state, [low, high]) {
   if (Number.isNaN(low)) return NaN;
   const dominates = (y) => {
     const force = forceOf(law, atPlace(x, y, state));
-    return force[part]/force.total >= DATA.threshold;
+    return force !== null && force[part]/force.total >= DATA.threshold;
   };
   if (dominates(low) === dominates(high)) return !dominates(low) ? NaN : part === "wear" ? low : Infinity;
   return changeBetween(dominates, low, high);
