@@ -89,7 +89,7 @@ LAWS.push({
   says: "the shear on the wire acts on the solid, which raises its own force; known up to loads that "
     + "solutions with friction and wear reach before the tip touches the wire",
   unknown: "no finite elements tell it there",
-  beyond: "no coupled solution is near",
+  beyond: "no coupled solution is near", solutions: "the coupled solutions",
   // Why a state that the table covers has no force, with the remedy.
   refusal: (state) => {
     const {alpha} = state, [low, high] = KAPPA.ends[1].map(Math.exp), [, right] = KAPPA.ends[0];

@@ -147,6 +147,7 @@ function drawForces(plot, state, size, change) {
   const y = linearScale(top, height - 48, 12);
   const box = {x: x.start, y: y.end, width: x.end - x.start, height: y.start - y.end};
   frame.append(svg("rect", {...box, class: "paper"}));
+  if (valid && rubs(state)) drawBeyond(frame, main, x, y, plot.beyond);
   const lines = svg("g", {"clip-path": plot.inside}), labels = [];
   frame.append(svg("clipPath", {id: plot.inside.slice(5, -1)}, svg("rect", {...box})), lines);
   const names = main.flatMap((run) => drawParts(lines, run, x, y));
@@ -154,7 +155,6 @@ function drawForces(plot, state, size, change) {
   const others = LAWS.map((one, i) => ({law: one, curve: curves[i] ?? []})).filter((one) => one.law !== law);
   drawOthers(lines, others, x, y, labels);
   if (main.length) labels.push([y.to(endOf(main).total), law.title, "main"]);
-  if (valid && rubs(state)) drawBeyond(frame, main, x, y, plot.beyond);
   const tick = axes({...inner}, y, state.diameters ? "wire diameter D [mm]" : "wire radius R_w [mm]",
     "F_ss/T [N/m]");
   frame.append(tick, ...names);

@@ -92,8 +92,7 @@ function showAnswer(refused) {
   byId("number-unit").textContent = force ? "N/m" : "";
   byId("may-be-off").textContent = !force ? "" : Number.isFinite(force.error)
     ? `error up to ${percentUp(force.error)}` : "error unknown";
-  byId("bar").textContent = `${byId("number").textContent} ${byId("number-unit").textContent}, `
-    + `${byId("may-be-off").textContent}`;
+  byId("bar").textContent = force ? `${byId("number").textContent} N/m, ${byId("may-be-off").textContent}` : "no force";
   const sentences = sentencesOf(state);
   byId("says").replaceChildren(...sentences.map((text) => {
     const line = document.createElement("p");

@@ -102,17 +102,29 @@ function saysDominant(force) {
 }
 
 function saysStretches(law, state) {
-  const stretches = stretchesOf(law, state);
-  const does = (part) => part === null ? law.beyond : part === DATA.transition ? "no part" : part;
-  const covered = saysCovered(state);
-  if (stretches.length === 1) return `So it is with every wire that the table covers${covered}.`;
-  const told = stretches.map(({part, to}, i) => {
+  const {run, thinner, thicker} = runAround(stretchesOf(law, state), state.R_w);
+  const does = (part) => part === DATA.transition ? "no part" : part;
+  const told = run.map(({part, to}, i) => {
     const end = i === 0 ? wire(state, to) : sizeAlone(state, to);
-    const reach = i < stretches.length - 1 ? `up to ${end}` : "with thicker wires";
-    const first = i === stretches.findIndex((one) => one.part !== null);
-    return first ? `${does(part)} dominates ${reach}` : `${does(part)} ${reach}`;
+    const reach = i < run.length - 1 || thicker ? `up to ${end}` : "with thicker wires";
+    return i === 0 ? `${does(part)} dominates ${reach}` : `${does(part)} ${reach}`;
   });
-  return `In this solid ${listed(told)}${covered}.`;
+  const parts = run.length > 1 ? `In this solid ${listed(told)}` : "So it is with every wire that the table covers";
+  const covered = saysCovered(state);
+  if (!thinner && !thicker) return `${parts}${covered}.`;
+  const [first, last] = [run[0].from, run[run.length - 1].to];
+  const reach = !thinner ? `up to ${wire(state, last)}`
+    : `from ${wire(state, first)} ${thicker ? `to ${sizeAlone(state, last)}` : "on"}`;
+  return `${run.length > 1 ? `${parts}. ` : ""}${capital(law.solutions)} around this wire reach ${reach}${covered}.`;
+}
+
+// The stretches around a radius between which the law has a force, and whether it has none beside.
+function runAround(stretches, radius) {
+  const at = stretches.findIndex((one) => radius < one.to), own = at < 0 ? stretches.length - 1 : at;
+  let [low, high] = [own, own];
+  while (low > 0 && stretches[low - 1].part !== null) --low;
+  while (high + 1 < stretches.length && stretches[high + 1].part !== null) ++high;
+  return {run: stretches.slice(low, high + 1), thinner: low > 0, thicker: high + 1 < stretches.length};
 }
 
 // Where the table begins, and where it ends if there are wires as thick.
