@@ -139,7 +139,7 @@ def test_the_error_under_the_law_of_slip_is_known_short_of_the_touch():
 def test_a_table_of_ones_own_is_taken_and_its_error_unknown():
     table = candidates().fitted.models["table"]
     nodes = {n: tuple(2.0 * side for side in sides) for n, sides in table.table.nodes.items()}
-    twice = replace(table, table=replace(table.table, nodes=nodes, _cells={}))
+    twice = replace(table, table=replace(table.table, nodes=nodes))
     force = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model=twice)
     usual = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model="table")
     assert force(3e-4) - 1.6 == pytest.approx(2.0 * (usual(3e-4) - 1.6), rel=1e-13)
