@@ -59,8 +59,12 @@ class CellTable:
     _sides: dict[str, list[Slopes]] = field(default_factory=dict, init=False, repr=False)
     _cells: dict[str, Array] = field(default_factory=dict, init=False, repr=False)
     _quarters: dict[str, list[Array]] = field(default_factory=dict, init=False, repr=False)
-    _rows: dict[str, dict[int, tuple[float, ...]]] = field(default_factory=dict, init=False, repr=False)
-    _collapsed: dict[tuple[str, int, float], Array] = field(default_factory=dict, init=False, repr=False)
+    _rows: dict[str, dict[int, tuple[float, ...]]] = field(
+        default_factory=dict, init=False, repr=False
+    )
+    _collapsed: dict[tuple[str, int, float], Array] = field(
+        default_factory=dict, init=False, repr=False
+    )
 
     def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
         """Return x = ln(g/g_touch) and functions at points: floats, or arrays and one alpha."""
