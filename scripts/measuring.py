@@ -8,7 +8,7 @@ import tracemalloc
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter, process_time
+from time import process_time
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
         contact_functions,
         energy_release_rate,
     )
+    from surrogate.cutting.dissipation import dissipative_force
     from surrogate.cutting.figure import plot_force
-    from surrogate.cutting.force import CuttingForce, cutting_force, dissipative_force
+    from surrogate.cutting.force import CuttingForce, cutting_force
     from surrogate.cutting.gradient import ForceGradient, force_gradient
     from surrogate.cutting.regimes import Regime, classify
     from surrogate.cutting.transition_radius import (
@@ -136,7 +137,8 @@ _MODULES = {
     "contact.closed_forms": "FORCE_MODELS",
     "cutting.contact_functions": "ContactFunctions contact_functions energy_release_rate",
     "cutting.figure": "plot_force",
-    "cutting.force": "CuttingForce cutting_force dissipative_force",
+    "cutting.dissipation": "dissipative_force",
+    "cutting.force": "CuttingForce cutting_force",
     "cutting.gradient": "ForceGradient force_gradient",
     "cutting.regimes": "Regime classify",
     "cutting.transition_radius": "fracto_cohesive_transition_radius transition_radius "

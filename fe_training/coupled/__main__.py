@@ -6,9 +6,16 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from surrogate.basics.command import OneLineParser, run_command
 
+if TYPE_CHECKING:
+    from fe_training.coupled.design import CoupledDesign
+    from fe_training.coupled.store import CoupledStore
+
+DATA = "coupled.h5"
 _EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py"}
 
 _HELP = """\
@@ -34,24 +41,35 @@ def _parser() -> argparse.ArgumentParser:
     add("--jobs", type=int, default=1, metavar="N", help="processes (1)")
     add("--bases", type=int, metavar="N", help="only the first N bases")
     add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
+    add(
+        "--finer",
+        action="store_true",
+        help="solve first rays of the bases that no fit sees a second time, on the finer mesh",
+    )
     add("--check", action="store_true", help="tell what is finished, and solve nothing")
+    add(
+        "--fit",
+        metavar="FOLDER",
+        help="fit kappa to the rows of coupled.h5 in a folder, and write coupled.npz and its card "
+        "there; solves nothing",
+    )
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
-    from fe_training.campaign.workers import Workers
     from fe_training.coupled.dataset import collected, write_coupled
     from fe_training.coupled.design import read_design
-    from fe_training.coupled.run import run_coupled, waiting
+    from fe_training.coupled.run import waiting
     from fe_training.coupled.store import CoupledStore
 
     design, store = read_design(options.design), CoupledStore(options.store)
-    todo = waiting(design, store)[: options.bases]
+    if options.fit:
+        return _fit(Path(options.fit), design)
+    finer = CoupledStore(store.folder / "finer")
     if not options.check:
-        with store.opened(design):
-            run_coupled(design, store, todo, Workers(options.jobs))
+        _solve(design, store, finer, options)
     if options.write:
-        write_coupled(collected(design, store), options.write)
+        write_coupled(collected(design, store, finer), options.write)
     outcomes: Counter[str] = Counter()
     for base in design.all_bases():
         rows = store.read(base)
@@ -60,6 +78,34 @@ def _run(options: argparse.Namespace) -> int:
     lines = [f"{count:6d} {name}" for name, count in sorted(outcomes.items())]
     lines.append(f"{len(waiting(design, store)):6d} of {design.bases} bases are not finished")
     sys.stdout.write("\n".join(lines) + "\n")
+    return 0
+
+
+def _solve(
+    design: CoupledDesign, store: CoupledStore, finer: CoupledStore, options: argparse.Namespace
+) -> None:
+    from fe_training.campaign.workers import Workers
+    from fe_training.coupled.run import again, run_coupled, waiting
+
+    workers = Workers(options.jobs)
+    if options.finer:
+        other = design.on_finer_mesh()
+        todo = [base for base in again(design, store) if not finer.is_finished(base)]
+        with finer.opened(other):
+            run_coupled(other, finer, todo[: options.bases], workers)
+        return
+    with store.opened(design):
+        run_coupled(design, store, waiting(design, store)[: options.bases], workers)
+
+
+def _fit(folder: Path, design: CoupledDesign) -> int:
+    from fe_training.coupled.card import CARD, make_amplification
+    from fe_training.coupled.dataset import read_coupled
+    from surrogate.contact.shipped import shipped
+
+    data = read_coupled(folder / DATA)
+    make_amplification(data, shipped().limits.touch, (design.friction, design.wear), folder)
+    sys.stdout.write(f"{folder / CARD}\n")
     return 0
 
 

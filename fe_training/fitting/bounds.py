@@ -9,6 +9,7 @@ the cell, and the table's own bound.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates, log_touch
 from surrogate.contact.process import GaussianProcess
 
-__all__ = ["fit_bounds", "left_out_errors"]
+__all__ = ["fit_bounds", "fit_slip_bounds", "left_out_errors"]
 
 Floats = NDArray[np.float64]
 
@@ -33,6 +34,20 @@ PROJECTED_TWIN = dict(zip(SLIP_QUANTITIES, QUANTITIES, strict=False))
 
 SAFETY = 2.0
 """How many times the largest error of a few dozen points of a cell the largest of all may be."""
+
+RATIO_EDGES = (1e-3, 1e-2, 0.1, 0.25, 0.5, 0.8), (1.5, 3.0, 10.0, 30.0)
+"""Edges in g/g_touch of the cells of A* and B*, on either side of the touch."""
+
+FEWEST_UNSEEN = 3
+"""Points that no fit saw from which on a cell is judged by them."""
+
+DOUBT = 2.0
+"""How many standard errors of ln g_touch from it A* and B*, which jump there, are not known."""
+
+SHARP = 3.0
+"""Up to this alpha A* and B* past the touch have no limit, or none that is near, as the tip gets
+sharper: by up to 13 % for each factor of e in its radius at alpha = 2, 3 % at 2.5, below 0.7 % from
+3.1 on."""
 
 _GRID = 24  # points of a cell along each direction
 
@@ -80,6 +95,118 @@ def fit_bounds(
         for name, values in found.items():
             errors[name][function] = values
     return Bounds(*edges, errors)
+
+
+def fit_slip_bounds(
+    points: FitPoints,
+    touch: Touch,
+    processes: Mapping[str, GaussianProcess],
+    models: Mapping[str, ForceModel],
+    off_grid: FitPoints | None = None,
+) -> Bounds:
+    """Return the bounds of A* and B* over g/g_touch, as both change abruptly where the tip touches.
+
+    Nearer to the touch than a few of its own standard errors nothing is known, nor past it where
+    the size of the tip decides. A cell with a few points that no fit saw has their largest error,
+    others that of points and alphas left out, times the factor of safety.
+
+    Parameters
+    ----------
+    points, touch, processes, models
+        As for `fit_bounds`.
+    off_grid : FitPoints, optional
+        Points that no fit saw.
+
+    Returns
+    -------
+    Bounds
+        Infinite where nothing is known.
+    """
+    near = float(np.exp(DOUBT * touch.error))
+    wanted = (*RATIO_EDGES[0], 1.0 / near, near, *RATIO_EDGES[1])
+    edges = _edges(wanted, _corners(points, touch)), _edges(ALPHA_EDGES, points.alpha)
+    left_out = left_out_errors(points, processes)
+    scaled = replace(points, g=_ratio(points.g, points.alpha, touch))
+    unseen = _unseen(off_grid, touch, models["gp"])
+    errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
+    for function in SLIP_QUANTITIES:
+        own = _own_errors(scaled, left_out[function], edges)
+        if unseen is not None:
+            others, errors_there = unseen
+            judged = _counted(others, edges) >= FEWEST_UNSEEN
+            own = np.where(judged, _own_errors(others, errors_there[function], edges), own)
+        found = {name: np.full(own.shape, np.inf) for name in errors}
+        for cell in np.ndindex(own.shape):
+            q, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
+            if (q[0] < 1.0 < q[1]) or (q[0] > 1.0 and alpha[1] <= SHARP):
+                continue
+            ratio, alphas = _grid(q, alpha)
+            at = _inside(models["table"], ratio * _touching(alphas, touch), alphas)
+            for name, bound in _slip_errors(
+                function, SAFETY * float(own[cell]), at, models
+            ).items():
+                found[name][cell] = bound
+        for name, values in found.items():
+            errors[name][function] = values
+    return Bounds(*edges, errors, touch.coefficients)
+
+
+def _slip_errors(
+    function: str, bound: float, at: tuple[Floats, Floats], models: Mapping[str, ForceModel]
+) -> dict[str, float]:
+    """Return the bounds of all models in a cell, that of the process being known."""
+    if not at[0].size:
+        return {}
+    table = models["table"].contact((function,), *at)[0]
+    known = {"eq13": FORCE_MODELS["eq13"], **models}
+    apart = {name: _apart(model, function, at, table) for name, model in known.items()}
+    of_table = bound + apart["gp"]
+    return {**{name: of_table + apart[name] for name in apart}, "gp": bound, "table": of_table}
+
+
+def _inside(model: ForceModel, g: Floats, alpha: Floats) -> tuple[Floats, Floats]:
+    """Return those of some points that are in the domain."""
+    there = np.asarray(model.holds(g, alpha))
+    return g[there], alpha[there]
+
+
+def _touching(alpha: Floats, touch: Touch) -> Floats:
+    """Return g_touch."""
+    return np.asarray(np.exp(log_touch(touch.coefficients, np.log(alpha))))
+
+
+def _ratio(g: Floats, alpha: Floats, touch: Touch) -> Floats:
+    return g / _touching(alpha, touch)
+
+
+def _unseen(
+    off_grid: FitPoints | None, touch: Touch, model: ForceModel
+) -> tuple[FitPoints, dict[str, Floats]] | None:
+    """Return points that no fit saw, over g/g_touch, with the errors of a model there."""
+    if off_grid is None or not {*SLIP_QUANTITIES} <= {*off_grid.names}:
+        return None
+    g, alpha = off_grid.g, off_grid.alpha
+    values = model.contact(SLIP_QUANTITIES, g, alpha)
+    inside = np.asarray(model.holds(g, alpha))
+    errors = {
+        name: np.where(inside, np.abs(np.log(value / getattr(off_grid, name))), 0.0)
+        for name, value in zip(SLIP_QUANTITIES, values, strict=True)
+    }
+    ratio = np.where(inside, _ratio(g, alpha, touch), np.inf)
+    return replace(off_grid, g=ratio), errors
+
+
+def _counted(points: FitPoints, edges: tuple[tuple[float, ...], tuple[float, ...]]) -> Floats:
+    """Return the number of points of each cell."""
+    bins = [np.array(each) for each in edges]
+    return np.asarray(np.histogram2d(points.g, points.alpha, bins)[0])
+
+
+def _corners(points: FitPoints, touch: Touch) -> Floats:
+    """Return the least and the largest g/g_touch of the domain, a rounding farther out."""
+    touches = _touching(np.linspace(points.alpha.min(), points.alpha.max(), 200), touch)
+    low, high = points.g.min() / touches.max(), points.g.max() / touches.min()
+    return np.array([low * (1.0 - 1e-9), high * (1.0 + 1e-9)])
 
 
 def _own_errors(

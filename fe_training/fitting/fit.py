@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.campaign.store import write_atomically
-from fe_training.fitting.bounds import fit_bounds
+from fe_training.fitting.bounds import fit_bounds, fit_slip_bounds
 from fe_training.fitting.formula import eq9_fits, fit_blend
 from fe_training.fitting.points import FitPoints
 from fe_training.fitting.process import fit_processes
@@ -74,8 +74,10 @@ def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
     constants = fit_blend(points, touch)
     told = {**(about or {}), "eq9": eq9_fits(points), "touch_points": _touch_points(touch)}
     bare = Fitted(limits, processes, table, constants, touch.error, told)
-    bounds = fit_bounds(points, touch, processes, bare.models)
-    return replace(bare, about={**told, "bounds": bounds.as_dict()})
+    told["bounds"] = fit_bounds(points, touch, processes, bare.models).as_dict()
+    if {*SLIP_QUANTITIES} <= {*points.names}:
+        told["slip_bounds"] = fit_slip_bounds(points, touch, processes, bare.models).as_dict()
+    return replace(bare, about=told)
 
 
 def write_fitted(folder: Path, fitted: Fitted) -> Path:

@@ -341,11 +341,13 @@ def evidence(results: Sequence[Result]) -> str:
     reached = [one for one in results if np.isfinite(one.energy_release_rate)]
     mismatch = np.array([one.force_mismatch for one in reached])
     case = reached[int(mismatch.argmax())].case
-    size = "in the large body" if np.isinf(case.half_height) else f"at H = {case.half_height:g} R_w"
+    size = (
+        f"at $H = {case.half_height:g} R_w$" if case.half_height < np.inf else "in the large body"
+    )
     return (
-        f"{len(reached)} of {len(results)} cases were reached. The median of |J - 2 F_h|/J is "
+        f"{len(reached)} of {len(results)} cases were reached. The median of $|J - 2 F_h|/J$ is "
         f"{np.median(mismatch):.1g}, 95 % are below {np.quantile(mismatch, 0.95):.1g}, and the "
-        f"largest is {mismatch.max():.1g}, {size}, {case.side}, alpha = {case.alpha:g}."
+        f"largest is {mismatch.max():.1g}, {size}, {case.side}, $\\alpha$ = {case.alpha:g}."
     )
 
 
@@ -412,5 +414,5 @@ def block_table(results: Sequence[Result], alphas: Sequence[float]) -> str:
                     f"{min(B):.2f} to {max(B):.2f}",
                 ]
             )
-    head = ["alpha", "H/R_w", "side", "delta/R_w", "n of J(delta)", "r^2", "n by reference"]
-    return markdown_table([*head, "A", "B"], lines)
+    head = [r"$\alpha$", "$H/R_w$", "side", r"$\delta/R_w$", r"$n$ of $J(\delta)$", "$r^2$"]
+    return markdown_table([*head, "$n$ by reference", "$A$", "$B$"], lines)

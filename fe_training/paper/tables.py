@@ -61,9 +61,9 @@ def distance_table(curves: Sequence[Curve]) -> str:
         for one in curves:
             cells += _at_distance(one.distance[one.far], one.g[one.far], delta)
         lines.append([*cells, *_at_distance(deltas, wedge, delta)])
-    head = ["delta/R_w"]
-    for name in (*(f"alpha = {one.alpha:g}" for one in curves), "linear wedge"):
-        head += [f"exponent, {name}", "J/Eq. (5)"]
+    head = [r"$\delta/R_w$"]
+    for name in (*(rf"$\alpha$ = {one.alpha:g}" for one in curves), "linear wedge"):
+        head += [f"exponent, {name}", "$J$/Eq. (5)"]
     return markdown_table(head, lines)
 
 
@@ -90,9 +90,10 @@ def plateau_table(curves: Sequence[Curve]) -> str:
         for g in PLATEAU_G:
             cells += [_number(one.at(values, g)) for values in (one.arc, one.normal_load)]
         lines.append(
-            [*cells, f"{one.arc.max():.2f} at g = {plain(float(one.g[one.arc.argmax()]))}"]
+            [*cells, f"{one.arc.max():.2f} at $g$ = {plain(float(one.g[one.arc.argmax()]))}"]
         )
-    head = ["alpha", *(f"{name} at g = {g:g}" for g in PLATEAU_G for name in "AB"), "largest A"]
+    numbers = [f"${name}$ at $g$ = {g:g}" for g in PLATEAU_G for name in "AB"]
+    head = [r"$\alpha$", *numbers, "largest $A$"]
     return markdown_table(head, lines)
 
 
@@ -120,8 +121,10 @@ def exponent_table(curves: Sequence[Curve]) -> str:
                 f"{100 * line['largest_error_where_C_is_1']:.0f} %",
             ]
         )
-    head = ["alpha", "g", "n in Table 1", "n", "C", "r^2", "largest error"]
-    return markdown_table([*head, "n, C = 1", "r^2, C = 1", "largest error, C = 1"], lines)
+    head = [r"$\alpha$", "$g$", "$n$ in Table 1", "$n$", "$C$", "$r^2$", "largest error"]
+    return markdown_table(
+        [*head, "$n$, $C = 1$", "$r^2$, $C = 1$", "largest error, $C = 1$"], lines
+    )
 
 
 def local_table(curves: Sequence[Curve]) -> str:
@@ -141,7 +144,7 @@ def local_table(curves: Sequence[Curve]) -> str:
             [f"{one.alpha:.3g}"]
             + ["-" if np.isnan(n) else f"{n:.2f}, {np.exp(log):.2f}" for n, log in cells]
         )
-    return markdown_table(["alpha", *(f"g = {g:g}" for g in LOCAL_G)], lines)
+    return markdown_table([r"$\alpha$", *(f"$g$ = {g:g}" for g in LOCAL_G)], lines)
 
 
 def contact_table(data: Campaign, alphas: Sequence[float]) -> str:
@@ -174,7 +177,7 @@ def contact_table(data: Campaign, alphas: Sequence[float]) -> str:
                 f"{abs(arc - nodes).max():.3f}",
             ]
         )
-    head = ["alpha", "largest A, pressure vanishes", "largest A, outermost nodes"]
+    head = [r"$\alpha$", "largest $A$, pressure vanishes", "largest $A$, outermost nodes"]
     return markdown_table([*head, "largest difference"], lines)
 
 
@@ -194,16 +197,18 @@ def eq13_table(curves: Sequence[Curve]) -> str:
             lines.append([f"{one.alpha:g}", f"{xi:g}", *_ends(error, one.g)])
         paper = one.g + 4.0 * _FRICTION_FREE
         wear = paper / (one.g + 2.0 * _FRICTION_FREE * one.arc) - 1.0
-        lines.append([f"{one.alpha:g}", f"0, tau_w = {_FRICTION_FREE:g} mu", *_ends(wear, one.g)])
-    return markdown_table(["alpha", "xi", "lowest", "highest", "median of the size"], lines)
+        lines.append(
+            [f"{one.alpha:g}", rf"0, $\tau_w$ = {_FRICTION_FREE:g} $\mu$", *_ends(wear, one.g)]
+        )
+    return markdown_table([r"$\alpha$", r"$\xi$", "lowest", "highest", "median of the size"], lines)
 
 
 def _ends(error: Any, g: Floats) -> Iterator[str]:
     error = np.atleast_2d(error)
     for place in (error.argmin(), error.argmax()):
         row, column = np.unravel_index(place, error.shape)
-        where = f"g = {plain(float(g[column]))}"
+        where = f"$g$ = {plain(float(g[column]))}"
         if len(error) > 1:
-            where += f", tau_w/(mu xi) = {WEAR_TO_FRICTION[row]:g}"
+            where += rf", $\tau_w/(\mu\xi)$ = {WEAR_TO_FRICTION[row]:g}"
         yield f"{round(100 * error[row, column]):+d} % at {where}"
     yield f"{100 * np.median(np.abs(error)):.0f} %"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fe_training.sliding.balance import Support, slip_power, steady_force
 from fe_training.sliding.equilibrium import Problem
 from fe_training.sliding.leg import Leg, Point
+from fe_training.sliding.limit import limit_of
 from fe_training.sliding.path import SlidingStalledError, Steps, attempt, follow
 from fe_training.sliding.record import (
     BALANCE_BOUND,
@@ -32,7 +33,7 @@ Array = NDArray[np.float64]
 
 #: Shares of the scatter of det F from which on elements are split: after a step that leaves more
 #: than the whole of it, and where a path stalls.
-_SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25, 0.125)
+_SPLIT_SHARE, _RESCUE_SHARES = 0.5, (0.25,)
 
 #: The stretch of the face is looked at beyond this many notch radii.
 _NOTCH_REACH = 10.0
@@ -75,6 +76,7 @@ class SlidingCut:
         arc = observe.contact_arc(cut.body, state)
         self.first_arc, self.first_load = arc.slip_arc, arc.slip_load
         self.steps, self._clock = 0, time.process_time()
+        self._rates: list[tuple[float, Load]] = []
 
     def _on(self, state: State) -> None:
         """Take up the body of the cut."""
@@ -95,6 +97,7 @@ class SlidingCut:
             try:
                 for share, state in follow(self.problem, self.state, leg, steps, here):
                     here, self.state, self.point, rescues = share, state, leg.at(share), 0
+                    self._rates.append((state.position_rate, self.point.load))
                     self.steps += 1
                     self._check()
                     adapted = self._adapted(leg, here)
@@ -119,7 +122,14 @@ class SlidingCut:
             )
 
     def _ended(self, error: SlidingStalledError) -> SlidingEndError:
-        load, folded = self.point.load, error.outcome is NewtonOutcome.CONVERGED
+        load, limit = self.point.load, limit_of(self._rates)
+        if limit is not None:
+            return SlidingEndError(
+                SlidingOutcome.LIMIT,
+                f"dJ/dx_w vanishes near xi = {limit.friction:.4g}, tau_w/mu = {limit.wear:.4g}; no "
+                f"equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g}",
+            )
+        folded = error.outcome is NewtonOutcome.CONVERGED
         return SlidingEndError(
             SlidingOutcome.FOLDED if folded else SlidingOutcome.STALLED,
             f"no equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g} "
@@ -223,6 +233,7 @@ class SlidingCut:
             touches_tip=bool(state.active.wire[0]),
             touches_plane=bool(state.active.plane.any()),
             grazing=int(state.grazing.sum()),
+            pull=max(0.0, -float(state.force.min() / np.abs(state.force).sum())),
             residual=state.residual,
             iterations=state.iterations,
             steps=self.steps,

@@ -21,6 +21,10 @@ from fe_training.sliding.state import SlidingState
 #: and before Newton's method counts as going in a circle.
 _FLIPS, _LAST_FLIPS, _MOST_FLIPS = 2, 6, 9
 
+#: Pull up to which a node that goes on changing is held, relative to the mean force of those that
+#: touch.
+_HOLD = 0.05
+
 
 class Ends:
     """Follows the touching nodes through the iterations of one equilibrium.
@@ -45,10 +49,15 @@ class Ends:
         grazing = (state.grazing == there.grazing).all()
         return bool(grazing) and there.active.same(state.active)
 
+    def _held(self, there: SlidingState) -> NDArray[np.bool_]:
+        """Return which nodes stay although they are pulled, having found no rest otherwise."""
+        allowed = _HOLD * float(np.abs(there.force).sum()) / max(int(there.active.wire.sum()), 1)
+        return np.asarray((self.flips > _LAST_FLIPS) & (there.force > -allowed))
+
     def updated(self, there: SlidingState) -> SlidingState:
         """Return a state after a step with its touching and grazing nodes brought up to date."""
         before, grazing = there.active, there.grazing
-        pressed = np.where(grazing, 0.0, there.force)
+        pressed = np.where(grazing | self._held(there), 0.0, there.force)
         after = contact.updated(self.body, there.u, there.centre, before, pressed)
         wire, grazing = after.wire | (grazing & before.wire), grazing.copy()
         if grazing.any():

@@ -22,6 +22,11 @@ class SlidingOutcome(ToldOutcome):
         "sliding on a smooth face ends on the way to this load",
         "ask for less friction or wear",
     )
+    LIMIT = (
+        "the load has its limit on the way: the position of the wire no longer decides J, and no "
+        "steady cut is found beyond",
+        "ask for less friction or wear",
+    )
     STALLED = (
         "the path to the configuration stalled at its smallest step",
         "refine the mesh, or ask for less friction or wear",
@@ -92,6 +97,8 @@ class SlidingRecord:
         Whether the wire touches the tip, and the crack face the symmetry plane.
     grazing : int
         Nodes that touch without pressure, with a part of tau_w.
+    pull : float
+        Largest pull on a node that is held to the wire, relative to the contact force [-].
     residual : float
         Residual relative to the contact force [-].
     iterations : int
@@ -105,7 +112,7 @@ class SlidingRecord:
     unknowns : int
         Free unknowns.
     mesh_error : float
-        Relative difference of F_ss - J from a coarser mesh; nan where not estimated.
+        Relative difference of kappa from a finer mesh; nan where not estimated.
     processor_time : float
         Processor seconds since the last record of the path.
     """
@@ -139,6 +146,7 @@ class SlidingRecord:
     touches_tip: bool = False
     touches_plane: bool = False
     grazing: int = 0
+    pull: float = np.nan
     residual: float = np.nan
     iterations: int = 0
     steps: int = 0

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fe_training.fitting.points import FitPoints
 from surrogate.basics.elementwise import apply
 from surrogate.choosing.auto import AutomaticTerms
+from surrogate.choosing.candidates import candidates
 from surrogate.choosing.choice import choose_terms
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
@@ -262,15 +263,14 @@ def _promised(
     wear, friction = (one, 0.0 * one) if alone else (ratio * xi * one, xi * one)
     free = 4.0 * wear, friction * (4.0 + points.g)
     cleavage = 0.0 * one if alone else points.g
-    chosen = choose_terms(
-        points.g, points.alpha, (cleavage, *free), rtol, fitted=fitted, refuse=False
-    )
+    known = candidates(fitted)
+    chosen = choose_terms(points.g, points.alpha, (cleavage, *free), rtol, known, refuse=False)
     done = chosen.bound <= rtol
     if not np.any(done):
         return done, np.zeros(0), np.zeros(0, str)
     scene = one, points.g, one, friction, wear, points.alpha
     some = tuple(values[done] for values in scene)
-    automatic = AutomaticTerms(some, rtol, of_dissipation=bool(alone), fitted=fitted)
+    automatic = AutomaticTerms(some, rtol, of_dissipation=bool(alone), known=known)
     rubbed, worn, _, number, _ = apply(automatic, some, automatic.dtypes)
     automatic.finish(extrapolate=False)
     true = cleavage + 2.0 * (wear * points.arc + friction * points.normal_load)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fe_training.campaign.store import write_atomically
+from fe_training.fitting.bounds import fit_slip_bounds
 from fe_training.fitting.fit import fit, write_fitted
 from fe_training.fitting.points import FitPoints, points_of
 from fe_training.fitting.touch import fit_touch
@@ -33,6 +34,7 @@ from fe_training.validation.model_errors import (
     tables_of,
     the_models,
 )
+from surrogate.contact.coordinates import SLIP_QUANTITIES
 from surrogate.contact.shipped import Fitted
 from surrogate.errors import InputError
 
@@ -86,6 +88,9 @@ def make_surrogates(
     others = points_of(off_grid, single_mesh=True) if off_grid else None
     found = validation(fitted, points, others)
     told = {"errors": _told(found), "beyond": found.beyond.as_dict() if found.beyond else None}
+    if {*SLIP_QUANTITIES} <= {*points.names}:
+        known = fit_touch(points), fitted.processes, fitted.models
+        told["slip_bounds"] = fit_slip_bounds(points, *known, others).as_dict()
     fitted = replace(fitted, about={**fitted.about, **told})
     file = write_fitted(out, fitted)
     size = file.stat().st_size

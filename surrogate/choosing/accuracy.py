@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from surrogate.basics.checks import RTOL, one_number
 from surrogate.choosing.by_name import force_model, is_auto
 from surrogate.contact.base import ForceModel
-from surrogate.contact.fitted import TERMS_OF_LAW, FittedModel
+from surrogate.contact.fitted import COUPLED, SLIP, FittedModel
 from surrogate.errors import AccuracyError
 
 __all__ = ["contact_bounds", "contact_std", "one_model"]
@@ -52,12 +52,13 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
     """
     if not isinstance(model, FittedModel):
         return None
-    from surrogate.choosing.candidates import available
+    from surrogate.choosing.candidates import candidates
 
-    points = np.broadcast_arrays(g, alpha)
-    bounds = available()[1]
-    names = TERMS_OF_LAW[model.law]
-    found = (bounds.at(model.name, name, *points) for name in names)
+    points: Any = np.broadcast_arrays(g, alpha)
+    if not points[0].ndim:
+        points = float(g), float(alpha)
+    known = candidates(law=SLIP if model.law == COUPLED else model.law)
+    found = (known.bounds.at(model.name, name, *points) for name in known.terms)
     arc, load = (np.asarray(np.expm1(each)) for each in found)
     return arc, load
 

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import FloatOrArray, common_shape
 from surrogate.basics.elementwise import quotient
+from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.candidates import FREE, TERMS, candidates
+from surrogate.choosing.candidates import FREE, Candidates, candidates
 from surrogate.choosing.choice import (
     Chosen,
     choose_contact,
@@ -22,7 +23,6 @@ from surrogate.choosing.choice import (
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.domain import require_inside
-from surrogate.contact.shipped import Fitted
 
 WORTH = 0.6  # share of points that need both terms from which both are evaluated at once
 
@@ -40,12 +40,13 @@ class AutomaticTerms:
     ----------
     values : tuple
         The six quantities of a scene.
-    rtol : float
-        Relative error of the force that will do [-].
+    rtol : float or None
+        Relative error of the force that will do [-]; None for 0.02 where a model is as exact, and
+        else for the most exact one.
     of_dissipation : bool
         Whether `rtol` is relative to friction and wear alone, without the cleavage.
-    fitted : Fitted, optional
-        The models to choose among; the shipped ones by default.
+    known : Candidates, optional
+        The models to choose among; the shipped ones of the projected law by default.
 
     Examples
     --------
@@ -60,12 +61,13 @@ class AutomaticTerms:
     def __init__(
         self,
         values: tuple[FloatOrArray, ...],
-        rtol: float,
+        rtol: float | None,
         of_dissipation: bool = False,
-        fitted: Fitted | None = None,
+        known: Candidates | None = None,
     ) -> None:
-        self.values, self.rtol, self.of_dissipation = values, rtol, of_dissipation
-        self.known = candidates(fitted)
+        self.values, self.of_dissipation = values, of_dissipation
+        self.rtol, self.is_promise = DEFAULT_RTOL if rtol is None else rtol, rtol is not None
+        self.known = known or candidates()
         self.surrounded, self.short = True, False
 
     def __call__(
@@ -84,22 +86,37 @@ class AutomaticTerms:
         one = type(g) is float and type(alpha) is float and type(rubbed) is type(worn) is float
         choice = self._number if one else self._block
         friction, wear, number, bound = choice(g, cell, parts, scene)
+        if holds is not True:
+            bound = self._beyond(g, alpha, (parts[0], friction, wear), bound)
         return friction, wear, holds if holds is True or not one else bool(holds), number, bound
+
+    def _beyond(self, g: Any, alpha: Any, parts: tuple[Any, Any, Any], bound: Any) -> Any:
+        """Return the bound with what was measured of the asymptotes where there was none."""
+        errors = self.known.beyond(g, alpha)
+        if errors is None:
+            return bound
+        rest, friction, wear = parts
+        with np.errstate(all="ignore"):
+            off = np.where(np.equal(wear, 0.0), 0.0, wear * errors[0])
+            off = off + np.where(np.equal(friction, 0.0), 0.0, friction * errors[1])
+            share = off / (rest + friction + wear)
+            measured = np.where(np.isfinite(share), share, np.nan)
+        found = np.where(np.isnan(bound), measured, bound)
+        return float(found) if type(bound) is float else found
 
     def _number(
         self, g: float, cell: int, parts: tuple[float, ...], scene: tuple[float, ...]
     ) -> Any:
         mu, gamma, radius, xi, wear, alpha = scene
-        code, bound, arc, load = choose_number(self.known, cell, parts, self.rtol)
+        code, bound, arc, load, short = choose_number(self.known, cell, parts, self.rtol)
         _, worn, rubbed = parts
-        if code < 0:
-            self.short = True
-        elif code > 0:
+        self.short = self.short or short
+        if code > 0:
             model: Any = self.known.models[code]
             strengths = xi if load else 0.0, wear if arc else 0.0
             terms = model.terms_at(g, mu, gamma, radius, *strengths, alpha)
             rubbed, worn = terms[0] if load else rubbed, terms[1] if arc else worn
-        return rubbed, worn, max(code, 0), bound
+        return rubbed, worn, code, bound
 
     def _block(self, g: Any, cell: Any, parts: tuple[Any, ...], scene: tuple[Any, ...]) -> Any:
         chosen = chosen_terms(self.known, cell, parts, self.rtol)
@@ -107,7 +124,8 @@ class AutomaticTerms:
         _, worn, rubbed = parts
         if type(chosen.code) is int and chosen.code == 0:
             return rubbed, worn, 0, chosen.bound
-        return *_evaluated(chosen, g, (rubbed, worn), scene), chosen.code, chosen.bound
+        terms = _evaluated(self.known.terms, chosen, g, (rubbed, worn), scene)
+        return *terms, chosen.code, chosen.bound
 
     def finish(self, extrapolate: bool) -> None:
         """Raise what is to be refused, after all points are done.
@@ -121,7 +139,7 @@ class AutomaticTerms:
         """
         if not (self.surrounded or extrapolate):
             require_inside(self.known.models[1], self.values)
-        if self.short:
+        if self.short and self.is_promise:
             self._refuse()
 
     def _refuse(self) -> None:
@@ -131,7 +149,7 @@ class AutomaticTerms:
             g = quotient(gamma, mu, radius)
             rubbed, worn = FORCE_MODELS[FREE].terms(mu, gamma, radius, xi, wear, alpha)
             parts = 0.0 * gamma if self.of_dissipation else gamma, worn, rubbed
-            choose_terms(g, alpha, parts, self.rtol, self.known.fitted)
+            choose_terms(g, alpha, parts, self.rtol, self.known)
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
@@ -143,9 +161,15 @@ class AutomaticTerms:
         return names[number]
 
 
-def _evaluated(chosen: Chosen, g: Any, estimates: tuple[Any, Any], scene: tuple[Any, ...]) -> Any:
+def _evaluated(
+    terms: tuple[str, str],
+    chosen: Chosen,
+    g: Any,
+    estimates: tuple[Any, Any],
+    scene: tuple[Any, ...],
+) -> Any:
     """Return friction and wear of points by their models, as estimated where that will do."""
-    needed = [chosen.needed.get(name, False) for name in reversed(TERMS)]
+    needed = [chosen.needed.get(name, False) for name in reversed(terms)]
     shape = common_shape(scene)
     results = [np.broadcast_to(estimate, shape) for estimate in estimates]
     for number, model in enumerate(chosen.models[1:], start=1):
@@ -153,10 +177,10 @@ def _evaluated(chosen: Chosen, g: Any, estimates: tuple[Any, Any], scene: tuple[
         counts = [np.count_nonzero(np.broadcast_to(mask, shape)) for mask in here]
         together = min(counts) > WORTH * max(counts)
         groups: list[tuple[int, ...]] = [(0, 1)] if together else [(0,), (1,)]
-        for terms in groups:
-            if any(counts[i] for i in terms):
-                some = np.broadcast_to(np.logical_or(*here) if together else here[terms[0]], shape)
-                _put(results, model, terms, (some, here), (g, *scene))
+        for group in groups:
+            if any(counts[i] for i in group):
+                some = np.broadcast_to(np.logical_or(*here) if together else here[group[0]], shape)
+                _put(results, model, group, (some, here), (g, *scene))
     return results
 
 

@@ -14,7 +14,9 @@ from surrogate.choosing.catalogue import by_cost
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.contact.fitted import PROJECTED, TERMS_OF_LAW
 from surrogate.contact.shipped import Fitted, shipped
+from surrogate.errors import InputError
 
 __all__ = ["FREE", "OUTSIDE", "TERMS", "Candidates", "available", "candidates"]
 
@@ -22,7 +24,8 @@ Array = NDArray[np.float64]
 
 FREE = "eq13"
 OUTSIDE = "table"  # what continues beyond the domain, where no bound is known
-TERMS = ("arc", "normal_load")
+TERMS = TERMS_OF_LAW[PROJECTED]
+SAFETY_BEYOND = 2.0  # how many times the largest error of some solutions that of all may be
 
 
 class Candidates:
@@ -32,6 +35,8 @@ class Candidates:
     ----------
     fitted : Fitted
         The fitted models.
+    law : str
+        The law of dissipation whose terms they are to give.
 
     Examples
     --------
@@ -39,9 +44,11 @@ class Candidates:
     'eq13'
     """
 
-    def __init__(self, fitted: Fitted) -> None:
-        self.fitted, self.limits, self.bounds = fitted, fitted.limits, fitted.bounds
-        self.models: list[ForceModel] = [FORCE_MODELS[FREE], *by_cost(fitted.models.values())]
+    def __init__(self, fitted: Fitted, law: str = PROJECTED) -> None:
+        self.fitted, self.limits, self.bounds = fitted, fitted.limits, _bounds(fitted, law)
+        self.terms = TERMS_OF_LAW[law]
+        under = (model.under(law) for model in by_cost(fitted.models.values()))
+        self.models: list[ForceModel] = [FORCE_MODELS[FREE], *under]
         self.names = [model.name for model in self.models]
         self.outside = self.names.index(OUTSIDE)
         self._tables: dict[tuple[Any, str, str], Array] = {}
@@ -64,35 +71,63 @@ class Candidates:
             self._tables[key] = np.asarray(function(self.bounds.by_cell(model, name)))
         return self._tables[key]
 
+    def beyond(self, g: Any, alpha: Any) -> tuple[Any, Any] | None:
+        """Return how far the terms may be off above the highest g, as far as solutions told.
+
+        Infinite elsewhere; None where the file of the models says nothing of it.
+        """
+        told = self.fitted.about.get("beyond")
+        if not told:
+            return None
+        errors = told["errors"][OUTSIDE]
+        first, last = self.limits.alpha
+        high = self.limits.highest_g(alpha)
+        near = (g > high) & (g <= told["factor"] * high) & (alpha >= first) & (alpha <= last)
+        arc, load = (
+            np.where(near, SAFETY_BEYOND * errors.get(name, np.inf), np.inf) for name in self.terms
+        )
+        return arc, load
+
     @cached_property
     def of_terms(self) -> dict[str, list[tuple[float, ...]]]:
         """For single points, by term and cell: `least`, `most` and every model's `error`."""
         rows = {}
-        for name in TERMS:
+        for name in self.terms:
             errors = (self.error(model, name) for model in self.names)
             columns = self.least(name), self.most(name), *errors
             rows[name] = list(zip(*(column.tolist() for column in columns), strict=True))
         return rows
 
 
+def _bounds(fitted: Fitted, law: str) -> Bounds:
+    bounds = fitted.bounds if law == PROJECTED else fitted.slip_bounds
+    if bounds is None:
+        raise InputError(
+            f"law={law!r} must have models with measured errors of A* and B*, but the file of "
+            "models has none; make it anew with regen-surrogate, or take the models that wirecut "
+            "ships."
+        )
+    return bounds
+
+
 def _reciprocal(bound: Any) -> Any:
     return np.exp(-bound)
 
 
-def candidates(fitted: Fitted | None = None) -> Candidates:
-    """Return the models with measured errors; the shipped ones by default.
+def candidates(fitted: Fitted | None = None, law: str = PROJECTED) -> Candidates:
+    """Return the models with measured errors of a law; the shipped ones by default.
 
     Raises
     ------
     InputError
         If no fitted models are shipped.
     """
-    return _candidates(fitted or shipped(), models_folder())
+    return _candidates(fitted or shipped(), law, models_folder())
 
 
 @cache
-def _candidates(fitted: Fitted, folder_of_costs: str) -> Candidates:
-    return Candidates(fitted)
+def _candidates(fitted: Fitted, law: str, folder_of_costs: str) -> Candidates:
+    return Candidates(fitted, law)
 
 
 def available(fitted: Fitted | None = None) -> tuple[list[ForceModel], Bounds]:

@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import INFINITY, SMALLEST, FloatOrArray
-from surrogate.choosing.candidates import FREE, TERMS, Candidates, available, candidates
+from surrogate.choosing.candidates import FREE, Candidates, available, candidates
 from surrogate.contact.base import ForceModel
 from surrogate.contact.coordinates import QUANTITIES
-from surrogate.contact.shipped import Fitted
 from surrogate.errors import AccuracyError
 
 __all__ = [
@@ -74,7 +73,7 @@ def choose_terms(
     alpha: Array,
     parts: Sequence[Array],
     rtol: float,
-    fitted: Fitted | None = None,
+    known: Candidates | None = None,
     refuse: bool = True,
 ) -> Chosen:
     """Return models for the terms of forces.
@@ -87,8 +86,8 @@ def choose_terms(
         Gamma_o and the terms of wear and friction by Eq. (13) [N/m].
     rtol : float
         Relative error of their sum that will do [-].
-    fitted : Fitted, optional
-        The models to choose among; the shipped ones by default.
+    known : Candidates, optional
+        The models to choose among; the shipped ones of the projected law by default.
     refuse : bool, default True
         Whether to raise an error where no model is as exact, and not take the best one.
 
@@ -97,7 +96,7 @@ def choose_terms(
     AccuracyError
         If no model is as exact; the message names the best one.
     """
-    known = candidates(fitted)
+    known = known or candidates()
     with np.errstate(all="ignore"):
         chosen = chosen_terms(known, known.bounds.cell(g, alpha), parts, rtol)
     if refuse:
@@ -112,7 +111,7 @@ def chosen_terms(known: Candidates, cell: Any, parts: Sequence[Any], rtol: float
     """
     terms = [
         _Term(known, name, cell, estimate)
-        for name, estimate in zip(TERMS, parts[1:], strict=True)
+        for name, estimate in zip(known.terms, parts[1:], strict=True)
         if type(estimate) is not float or estimate
     ]
     low = np.maximum(sum((term.least() for term in terms), parts[0]), SMALLEST)
@@ -203,34 +202,38 @@ def _best(known: Candidates, bounds: list[Array], needed: dict[str, Any], rtol: 
 
 def choose_number(
     known: Candidates, cell: int, parts: Sequence[float], rtol: float
-) -> tuple[int, float, bool, bool]:
+) -> tuple[int, float, bool, bool, bool]:
     """Do the same as `chosen_terms` for one point: its model, bound and which terms it needs.
 
-    The model is that of the number -1 where none is exact enough.
+    The number of the model comes with a True at the end where it is the best one, yet not exact
+    enough.
     """
     cleavage, worn, rubbed = parts
-    least_arc, most_arc, error_arc, *arc_of = known.of_terms["arc"][cell]
-    least_load, most_load, error_load, *load_of = known.of_terms["normal_load"][cell]
+    least_arc, most_arc, error_arc, *arc_of = known.of_terms[known.terms[0]][cell]
+    least_load, most_load, error_load, *load_of = known.of_terms[known.terms[1]][cell]
     low = cleavage + (worn * least_arc if worn else 0.0)
     low = max(low + (rubbed * least_load if rubbed else 0.0), SMALLEST)
     worst_arc = worn * error_arc / low if worn else 0.0
     worst_load = rubbed * error_load / low if rubbed else 0.0
     together = worst_arc + worst_load
     if together <= rtol:
-        return 0, together, False, False
+        return 0, together, False, False, False
     needs_arc = together > rtol and worst_arc > NEGLIGIBLE * rtol
     needs_load = together > rtol and worst_load > NEGLIGIBLE * rtol
     left = (0.0 if needs_arc else worst_arc) + (0.0 if needs_load else worst_load)
     share_arc = min(worn * most_arc / low, 1.0) if worn else 0.0
     share_load = min(rubbed * most_load / low, 1.0) if rubbed else 0.0
-    finite = together < INFINITY
+    best, least = 0, together
     for number, (arc, load) in enumerate(zip(arc_of, load_of), start=1):  # noqa: B905
         arc, load = arc if needs_arc else 0.0, load if needs_load else 0.0
         bound = min(share_arc * arc + share_load * load, max(arc, load)) + left
         if bound <= rtol:
-            return number, bound, needs_arc, needs_load
-        finite = finite or bound < INFINITY
-    return (-1 if finite else known.outside), math.nan, needs_arc, needs_load
+            return number, bound, needs_arc, needs_load, False
+        if bound < least:
+            best, least = number, bound
+    if least == INFINITY:
+        return known.outside, math.nan, needs_arc, needs_load, False
+    return best, least, needs_arc, needs_load, True
 
 
 def require_met(chosen: Chosen, g: Array, alpha: Array, rtol: float) -> None:

@@ -3,7 +3,8 @@
 "projected" is the paper's Eq. (S2): the shear stress counts by its component along the cut, A and
 B, while the normal forces stay what they are without it. "slip" is the balance of energy to first
 order in tau_w and xi: shear stress times the way that the solid slips, A* and B*. Eq. (S2) leaves
-out that the normal forces grow as well, and so gives too small a force.
+out that the normal forces grow as well, and so gives too small a force. "coupled" lets the shear
+stress act on the body: kappa times the slip law.
 """
 
 from __future__ import annotations
@@ -13,30 +14,61 @@ from typing import Any
 import numpy as np
 
 from surrogate.basics.checks import shown
+from surrogate.basics.elementwise import quotient, ratio
 from surrogate.choosing.accuracy import contact_bounds
-from surrogate.choosing.by_name import force_model, is_auto
-from surrogate.contact.fitted import PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
-from surrogate.errors import InputError
+from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.contact.closed_forms import ClosedForm
+from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
+from surrogate.errors import DomainError, InputError
 
-__all__ = ["LAWS", "PROJECTED", "SLIP", "force_bound", "of_law"]
+__all__ = [
+    "ANY_LAW",
+    "COUPLED",
+    "LAWS",
+    "PROJECTED",
+    "SLIP",
+    "coupled",
+    "force_bound",
+    "is_chosen",
+    "of_law",
+    "require_known_load",
+]
 
-LAWS = (PROJECTED, SLIP)
-"""The laws that `law` may name."""
+LAWS = (PROJECTED, SLIP, COUPLED)
+"""The laws of dissipation."""
 
 _BEST = "table"
 
 
-def of_law(model: Any, law: object) -> Any:
+def is_chosen(model: object) -> bool:
+    """Return whether the model is chosen point by point, perhaps the law with it.
+
+    Examples
+    --------
+    >>> is_chosen("auto"), is_chosen(ANY_LAW), is_chosen("table")
+    (True, True, False)
+    """
+    return is_auto(model) or (isinstance(model, str) and model == ANY_LAW)
+
+
+ANY_LAW = "auto, law auto"
+"""What `of_law` returns where model and law are to be chosen point by point."""
+
+
+def of_law(model: Any, law: object, any_law: bool = False) -> Any:
     """Return what `model` is to be under a law: itself for "projected", else a model's object.
 
-    Under "slip" the name "auto" is the table, the quickest of the fitted models at many points.
+    Under "slip" and "coupled" the name "auto" is the table, the quickest of the fitted models at
+    many points. Under "auto" a closed form is itself, as all are of the projected law.
 
     Parameters
     ----------
     model : str or ForceModel
         A model, or "auto".
     law : str
-        "projected" or "slip".
+        "projected", "slip", "coupled", or "auto" where `any_law`.
+    any_law : bool, default False
+        Whether the caller can choose the law point by point.
 
     Raises
     ------
@@ -50,11 +82,14 @@ def of_law(model: Any, law: object) -> Any:
     >>> of_law("eq13", "projected")
     'eq13'
     """
-    if not isinstance(law, str) or law not in LAWS:
-        raise InputError(f"law must be one of {', '.join(LAWS)}, but is {shown(law)}; choose one.")
+    known = (*LAWS, AUTO) if any_law else LAWS
+    if not isinstance(law, str) or law not in known:
+        raise InputError(f"law must be one of {', '.join(known)}, but is {shown(law)}; choose one.")
     if law == PROJECTED:
         return model
     chosen = force_model(_BEST if is_auto(model) else model)
+    if law == AUTO:
+        return _of_any_law(model, chosen)
     if not isinstance(chosen, FittedModel):
         raise InputError(
             f"law={law!r} must have a model fitted to finite elements, but {chosen.name!r} is of "
@@ -65,18 +100,61 @@ def of_law(model: Any, law: object) -> Any:
             f"law={law!r} must have A* and B*, but the file of {chosen.name!r} has none; make it "
             "anew with regen-surrogate, or take the models that wirecut ships."
         )
-    return chosen.under(law)
+    return coupled(chosen.under(SLIP)) if law == COUPLED else chosen.under(law)
 
 
-def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, Any]) -> Any:
+def _of_any_law(model: Any, chosen: Any) -> Any:
+    if is_auto(model):
+        return ANY_LAW
+    if isinstance(chosen, ClosedForm):
+        return model
+    raise InputError(
+        f"law='auto' must have model='auto' or a closed form, but the model is {chosen.name!r}; "
+        "name the law as well."
+    )
+
+
+def coupled(slip: FittedModel) -> FittedModel:
+    """Return a model of the slip law under the law "coupled"."""
+    from surrogate.coupling.model import CoupledModel
+    from surrogate.coupling.shipped import amplification
+
+    return CoupledModel(slip, amplification())
+
+
+def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
+    """Raise a `DomainError` where the coupled solutions do not reach to a scene's load."""
+    if model.law != COUPLED:
+        return
+    shape = np.broadcast_shapes(*map(np.shape, values))
+    outside = np.broadcast_to(~np.asarray(model.in_domain(*values)), shape)
+    if not outside.any():
+        return
+    first = int(np.argmax(outside.ravel()))
+    mu, gamma, radius, xi, wear, alpha = (
+        float(np.broadcast_to(value, shape).flat[first]) for value in values
+    )
+    with np.errstate(all="ignore"):
+        g, relative = np.divide(gamma, mu * radius), np.divide(wear, mu)
+        share = model.amplification.share(float(g), alpha, xi, float(relative))
+    where = "where no coupled solution is near" if share == np.inf else f"{share:.3g} times it"
+    raise DomainError(
+        "friction and wear must be at most the load that coupled solutions reach before the tip "
+        f"touches the wire, but xi = {xi:.4g}, tau_w/mu = {relative:.4g} at g = {g:.4g}, alpha = "
+        f"{alpha:.4g} is {where}; give less of them, extrapolate=True for kappa of the nearest "
+        "load, or law='slip' or 'projected'."
+    )
+
+
+def force_bound(model: FittedModel, scene: tuple[Any, ...], parts: tuple[Any, Any, Any]) -> Any:
     """Return the bound of the relative error of a force beside finite elements of its law.
 
     Parameters
     ----------
     model : FittedModel
         The model, under its law.
-    g, alpha : float or ndarray
-        Where [-].
+    scene : tuple
+        Its six quantities.
     parts : tuple
         Cleavage, friction and wear [N/m].
 
@@ -86,13 +164,23 @@ def force_bound(model: FittedModel, g: Any, alpha: Any, parts: tuple[Any, Any, A
         The bound [-]; nan outside the domain, and under "slip" where the tip touches the wire and
         the slip there depends on how sharp it is.
     """
-    bounds = contact_bounds(model, g, alpha)
-    assert bounds is not None  # of a fitted model
+    mu, gamma, radius, xi, tau, alpha = scene
+    cleavage, friction, wear = parts
     with np.errstate(all="ignore"):
-        cleavage, friction, wear = parts
-        off = np.where(friction == 0.0, 0.0, friction * bounds[1])
-        off = off + np.where(wear == 0.0, 0.0, wear * bounds[0])
-        known = np.isfinite(off) & ((model.law == PROJECTED) | np.less(g, model.touch(alpha)))
+        g, relative = quotient(gamma, mu, radius), ratio(tau, mu)
+        own = _own_error(model, g, alpha, xi, relative)
+        bounds = contact_bounds(model, g, alpha)
+        assert bounds is not None  # of a fitted model
+        off = np.where(friction == 0.0, 0.0, friction * (bounds[1] + own))
+        off = off + np.where(wear == 0.0, 0.0, wear * (bounds[0] + own))
+        known = np.isfinite(off)
         rubs = np.not_equal(friction, 0.0) | np.not_equal(wear, 0.0)
         bound = np.where(known | ~rubs, off / (cleavage + friction + wear), np.nan)
     return bound.item() if bound.ndim == 0 else bound
+
+
+def _own_error(model: Any, g: Any, alpha: Any, xi: Any, relative: Any) -> Any:
+    """Return the bound of the relative error of kappa; 0 where the law has none."""
+    if model.law != COUPLED:
+        return 0.0
+    return np.expm1(model.amplification.error(g, alpha, xi, relative))

@@ -91,19 +91,23 @@ def add_model_option(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--rtol",
         type=share,
-        default=0.02,
         metavar="ERROR",
-        help="relative error that will do with --model auto (default 0.02)",
+        help="relative error that has to be met with --model auto (default 0.02 where it can be "
+        "had, else the best there is)",
     )
 
 
-def add_law_option(command: argparse.ArgumentParser) -> None:
+def add_law_option(
+    command: argparse.ArgumentParser, any_law: bool = False, coupled: bool = True
+) -> None:
+    more = "; auto: the cheapest whose error beside such solutions will do" if any_law else ""
+    last = "; coupled: with the stresses acting on the solid" if coupled else ""
     command.add_argument(
         "--law",
-        choices=("projected", "slip"),
+        choices=("projected", "slip", *(["coupled"] if coupled else []), *(["auto"] * any_law)),
         default="projected",
         help="projected: the paper's Eq. (S2); slip: the balance of energy to first order in wear "
-        "and friction, whose force is larger (default projected)",
+        f"and friction, whose force is larger{last}{more} (default projected)",
     )
 
 

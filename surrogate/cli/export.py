@@ -59,7 +59,7 @@ def add_export_options(command: argparse.ArgumentParser) -> None:
     add("--table", action="store_true", help="the whole table: all six quantities vary")
     add("--out", metavar="FILE", help="file to write; printed without it")
     add_model_option(command)
-    add_law_option(command)
+    add_law_option(command, coupled=False)
     command.set_defaults(rtol=None)  # which `prepare` reads as 0.02 where there is a choice
 
 

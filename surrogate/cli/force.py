@@ -45,7 +45,9 @@ __all__ = [
 ]
 
 
-def force_record(scene: Scene, force: CuttingForce, thickness: float | None = None) -> Record:
+def force_record(
+    scene: Scene, force: CuttingForce, thickness: float | None = None, any_law: bool = False
+) -> Record:
     """Return the force on each wire [N/m] and its parts, and on all of a sample's thickness [N]."""
     size = math.nan if thickness is None else thickness
     wires = wire_rows(
@@ -59,11 +61,15 @@ def force_record(scene: Scene, force: CuttingForce, thickness: float | None = No
         wear=force.wear,
         model=force.chosen,
         relative_error=math.nan if force.relative_error is None else force.relative_error,
+        law=force.laws,
+        fit_error=math.nan if force.fit_error is None else force.fit_error,
+        law_error=math.nan if force.law_error is None else force.law_error,
         in_domain=force.in_domain,
     )
     return {
         "model": force.model,
-        "law": force.law,
+        "law": "auto" if any_law else force.law,
+        "any_law": any_law,
         "thickness": thickness,
         "wires": wires,
         "warnings": doubts_of_scene(scene.values()),
@@ -81,6 +87,7 @@ def force_text(record: Record, diameters: bool = False) -> str:
             *([] if thickness is None else [number(wire["force"])]),
             *(number(wire[key]) for key in ("cleavage", "friction", "wear")),
             wire["model"],
+            *([wire["law"]] if record["any_law"] else []),
             _percent(wire["relative_error"]),
             "yes" if wire["in_domain"] else "no",
         )
@@ -89,17 +96,30 @@ def force_text(record: Record, diameters: bool = False) -> str:
     name = record["model"]
     words = "that of each wire" if is_auto(name) else force_model(name).equation
     parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
-    header = (*_wire_header(diameters), *parts, "model", "error up to", "model holds")
-    law = "" if record["law"] == PROJECTED else f", law of {record['law']}"
+    which = ["law"] if record["any_law"] else []
+    header = (*_wire_header(diameters), *parts, "model", *which, "error up to", "model holds")
+    law = "" if record["law"] == PROJECTED else f", law {_LAW_WORDS[record['law']]}"
     text = f"Model {name}, {words}{law}\n" + table(header, rows)
-    if law and any(wire["relative_error"] != wire["relative_error"] for wire in record["wires"]):
-        text += "\n" + _TIP
-    return text
+    unknown = any(wire["relative_error"] != wire["relative_error"] for wire in record["wires"])
+    return "\n".join([text, _UNKNOWN_ERROR[record["law"]]]) if law and unknown else text
 
 
-_TIP = """\
+_LAW_WORDS = {
+    "slip": "of slip",
+    "coupled": "with the stresses acting on the solid",
+    "auto": "chosen for each wire",
+    "projected": "of Eq. (S2)",
+}
+
+_UNKNOWN_ERROR = {
+    "slip": """\
 Where the error is unknown the crack's tip touches the wire: the force under the law of slip then
-depends on how sharp the tip is. That of the finite elements has a radius of 0.0005 R_w."""
+depends on how sharp the tip is. That of the finite elements has a radius of 0.0005 R_w.""",
+    "coupled": "Where the error is unknown no solution with friction and wear is near.",
+    "auto": """\
+Where the law is projected and the error unknown, nobody has solved the problem in which the wire
+rubs: the force is that of Eq. (S2), and tau_w and xi are effective numbers there.""",
+}
 
 
 def _wire_header(diameters: bool) -> tuple[str, str]:
@@ -217,7 +237,7 @@ def _add_scene_options(command: argparse.ArgumentParser) -> None:
 def add_force_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     add_model_option(command)
-    add_law_option(command)
+    add_law_option(command, any_law=True)
     add_extrapolate_option(command)
     command.add_argument(
         "--thickness",
@@ -240,7 +260,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
         help="share of the force from which a term dominates (default 2/3)",
     )
     add_model_option(command)
-    add_law_option(command)
+    add_law_option(command, any_law=True)
     add_extrapolate_option(command)
 
 
@@ -279,7 +299,8 @@ def run_force(options: argparse.Namespace) -> int:
                 thickness=options.thickness,
                 law=options.law,
             )
-    record = force_record(scene, force, options.thickness) | {"picture": options.plot}
+    record = force_record(scene, force, options.thickness, options.law == "auto")
+    record |= {"picture": options.plot}
     return print_answer(
         options, record, lambda record: _with_picture(force_text(record, wide), record)
     )

@@ -11,6 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surrogate.basics.elementwise import exp, log
+from surrogate.contact.coordinates import log_touch
+
 __all__ = ["Bounds"]
 
 Array = NDArray[np.float64]
@@ -27,6 +30,9 @@ class Bounds:
     errors : mapping of str to mapping of str to ndarray
         By model and by function "arc", "normal_load" or "distance", shape (cells in g, cells in
         alpha) [-].
+    touch : sequence of float
+        Coefficients of ln g_touch in powers of ln alpha where the edges in g are those of
+        g/g_touch, for functions that jump there; by default they are those of g itself.
 
     Examples
     --------
@@ -38,6 +44,7 @@ class Bounds:
     g: Sequence[float]
     alpha: Sequence[float]
     errors: Mapping[str, Mapping[str, Array]]
+    touch: Sequence[float] = ()
 
     @property
     def cells(self) -> int:
@@ -46,6 +53,8 @@ class Bounds:
 
     def cell(self, g: Any, alpha: Any) -> Any:
         """Return the number of the cell of points, floats or arrays."""
+        if self.touch:
+            g = exp(log(g) - log_touch(self.touch, log(alpha)))
         row, inside = _place(self.g, g)
         column, within = _place(self.alpha, alpha)
         columns = len(self.alpha) - 1
@@ -75,20 +84,37 @@ class Bounds:
     def as_dict(self) -> dict[str, Any]:
         """Return plain lists, of which `from_dict` makes the bounds again."""
         errors = {
-            model: {name: np.round(values, 7).tolist() for name, values in functions.items()}
+            model: {name: _plain(values) for name, values in functions.items()}
             for model, functions in self.errors.items()
         }
-        return {"g": list(self.g), "alpha": list(self.alpha), "errors": errors}
+        return {
+            "g": list(self.g),
+            "alpha": list(self.alpha),
+            "touch": list(self.touch),
+            "errors": errors,
+        }
 
     @classmethod
     def from_dict(cls, numbers: Mapping[str, Any]) -> Bounds:
         """Return the bounds of which `as_dict` gave the numbers."""
         shape = len(numbers["g"]) - 1, len(numbers["alpha"]) - 1
         errors = {
-            model: {name: np.array(values, float).reshape(shape) for name, values in each.items()}
+            model: {name: _known(values).reshape(shape) for name, values in each.items()}
             for model, each in numbers["errors"].items()
         }
-        return cls(tuple(numbers["g"]), tuple(numbers["alpha"]), errors)
+        edges = tuple(numbers["g"]), tuple(numbers["alpha"])
+        return cls(*edges, errors, tuple(numbers.get("touch", ())))
+
+
+def _plain(values: Array) -> list[list[float | None]]:
+    """Return rounded numbers, with None for an infinite one, where nothing is known."""
+    rounded: list[list[float]] = np.round(values, 7).tolist()
+    return [[number if math.isfinite(number) else None for number in row] for row in rounded]
+
+
+def _known(values: Any) -> Array:
+    numbers = np.array(values, float)
+    return np.where(np.isnan(numbers), np.inf, numbers)
 
 
 def _place(edges: Sequence[float], value: Any) -> tuple[Any, Any]:

@@ -43,7 +43,15 @@ from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["PROJECTED", "SLIP", "TERMS_OF_LAW", "FittedModel", "in_blocks", "toughness_of"]
+__all__ = [
+    "COUPLED",
+    "PROJECTED",
+    "SLIP",
+    "TERMS_OF_LAW",
+    "FittedModel",
+    "in_blocks",
+    "toughness_of",
+]
 
 # Between these, ln of ln(g_touch/g): from g equal to g_touch in all digits to the smallest float.
 _NEAREST, _FARTHEST = -36.0, 6.7
@@ -113,10 +121,11 @@ def _height(distance: Any) -> Any:
         return log(float(inner) if type(distance) is float else inner)
 
 
-PROJECTED, SLIP = "projected", "slip"
-"""The laws of dissipation: Eq. (S2) of the paper, and the balance of energy to first order."""
+PROJECTED, SLIP, COUPLED = "projected", "slip", "coupled"
+"""The laws of dissipation: Eq. (S2) of the paper, the balance of energy to first order, and the
+balance with the shear stress acting on the body."""
 
-TERMS_OF_LAW = {PROJECTED: QUANTITIES[:2], SLIP: SLIP_QUANTITIES}
+TERMS_OF_LAW = {PROJECTED: QUANTITIES[:2], SLIP: SLIP_QUANTITIES, COUPLED: SLIP_QUANTITIES}
 """Names of the functions that wear and friction follow under each law."""
 
 _ARC, _LOAD, _DISTANCE = QUANTITIES

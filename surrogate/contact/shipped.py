@@ -30,6 +30,7 @@ __all__ = [
     "Fitted",
     "content_of",
     "fitted_from",
+    "folder_in_use",
     "in_use",
     "read",
     "read_fitted",
@@ -73,6 +74,12 @@ class Fitted:
     def bounds(self) -> Bounds:
         """The measured errors."""
         return Bounds.from_dict(self.about["bounds"])
+
+    @cached_property
+    def slip_bounds(self) -> Bounds | None:
+        """The measured errors of A* and B*; None where the file has none."""
+        told = self.about.get("slip_bounds")
+        return None if told is None else Bounds.from_dict(told)
 
     @cached_property
     def models(self) -> dict[str, FittedModel]:
@@ -261,6 +268,12 @@ def shipped() -> Fitted:
     """
     named = _in_use or os.environ.get(VARIABLE)
     return read(_file_at(named)) if named else _in(models_folder())
+
+
+def folder_in_use() -> str:
+    """Return the folder of the file that `shipped` reads."""
+    named = _in_use or os.environ.get(VARIABLE)
+    return os.path.dirname(_file_at(named)) if named else models_folder()
 
 
 _in_use: str | None = None

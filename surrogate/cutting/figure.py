@@ -28,8 +28,8 @@ from surrogate.basics.figures import (
     save_figure,
 )
 from surrogate.basics.picture_form import picture_form
-from surrogate.choosing.by_name import AUTO, is_auto
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, is_chosen, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.errors import InputError
@@ -54,7 +54,7 @@ def plot_force(
     ax: Axes | None = None,
     *,
     model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     thickness: float | None = None,
     law: str = PROJECTED,
 ) -> Axes:
@@ -72,8 +72,8 @@ def plot_force(
         Where to draw; a new single-column figure by default.
     model : str, default "auto"
         As in `cutting_force`.
-    rtol : float, default 0.02
-        Relative error that will do with "auto" [-].
+    rtol : float, optional
+        Relative error that has to be met with "auto" [-]; by default 0.02 where it can be had.
     thickness : float, optional
         Thickness of the sample [m]: the force is then that on all of it [N].
     law : str, default "projected"
@@ -108,7 +108,7 @@ def plot_force(
     >>> ax.get_ylabel()
     'cutting force $F_{ss}/T$ [N/m]'
     """
-    wires, model = _wires(scene), of_law(model, law)
+    wires, model = _wires(scene), of_law(model, law, any_law=True)
     size = 1.0 if thickness is None else one_number(THICKNESS, thickness)
     radius = np.linspace(0.0, 1.08 * _right_end(wires), _POINTS + 1)[1:]
     curve = force_of(replace(scene, wire_radius=radius), model, rtol, extrapolate=True)
@@ -210,7 +210,7 @@ def _draw_total(
     ax: Axes, x: Array, total: Array, force: CuttingForce, model: str | ForceModel
 ) -> list[Any]:
     holds = np.broadcast_to(force.in_domain, x.shape)
-    name = "cheapest model exact enough" if is_auto(model) else f"model {model}"
+    name = "cheapest model exact enough" if is_chosen(model) else f"model {model}"
     inside, beyond = np.where(holds, total, np.nan), np.where(holds, np.nan, total)
     edges = holds[1:] != holds[:-1]
     beyond[1:][edges], beyond[:-1][edges] = total[1:][edges], total[:-1][edges]

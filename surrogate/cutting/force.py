@@ -3,33 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from surrogate.basics.checks import (
-    FRICTION_COEFFICIENT,
     RTOL,
     FloatOrArray,
-    Quantity,
-    broadcast_shape,
     flag,
     one_number,
+    shown,
 )
-from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply, evaluate_checked, quotient
+from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.choosing.laws import PROJECTED, force_bound, of_law
+from surrogate.choosing.laws import (
+    PROJECTED,
+    SLIP,
+    force_bound,
+    is_chosen,
+    of_law,
+    require_known_load,
+)
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
-from surrogate.equations import RELATIVE_WEAR_STRENGTH
+from surrogate.errors import InputError
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
-__all__ = ["CuttingForce", "cutting_force", "dissipative_force", "force_of"]
+__all__ = ["CuttingForce", "cutting_force", "force_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,15 +56,25 @@ class CuttingForce(Record):
     model : str
         Name of the model; "auto" where the points have several.
     relative_error : float, ndarray or None
-        Known bound of the relative error of `total` [-]; None where nobody knows one.
+        Known bound of the relative error of `total` [-], `fit_error` and `law_error` together; None
+        where nobody knows one.
     in_domain : bool or ndarray of bool
         Whether the model's own condition holds.
     chosen : str or ndarray of str
         Name of the model of each point.
     law : str
-        The law of dissipation, "projected" or "slip"; `relative_error` is beside finite elements of
-        this law, and nan under "slip" where the tip touches the wire: the slip there depends on how
-        sharp the tip is, which for the numbers is a notch of 5e-4 R_w.
+        The law of dissipation, "projected", "slip" or "coupled"; "auto" where the points have
+        several. Under "projected" and "slip" `relative_error` is beside finite elements of this
+        very law; under "coupled" and "auto" it is beside finite elements on which the wire rubs. It
+        is nan where nobody knows it, as under "slip" where the tip touches the wire at alpha up to
+        3: the slip there depends on how sharp the tip is, which is a notch of 5e-4 R_w here.
+    laws : str or ndarray of str
+        Name of the law of each point.
+    fit_error : float, ndarray or None
+        The part of the model: beside finite elements of the law of the point [-].
+    law_error : float, ndarray or None
+        The part of the law: of its own force beside finite elements on which the wire rubs [-]. 0
+        under "coupled"; None where it was not asked for, under "projected" and "slip".
 
     References
     ----------
@@ -82,14 +96,18 @@ class CuttingForce(Record):
     in_domain: bool | NDArray[np.bool_]
     chosen: str | NDArray[np.str_] = ""
     law: str = PROJECTED
+    laws: str | NDArray[np.str_] = PROJECTED
+    fit_error: FloatOrArray | None = None
+    law_error: FloatOrArray | None = None
 
 
 def cutting_force(
     scene: Scene,
     model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     extrapolate: bool = False,
     law: str = PROJECTED,
+    outside: str = "raise",
 ) -> CuttingForce:
     """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (S2).
 
@@ -102,17 +120,24 @@ def cutting_force(
         "table" or "gp" for those fitted to finite elements; "eq13" for Eq. (13), "high-toughness"
         for Eq. (10), "low-toughness" for Eq. (12), "friction-free" for Eq. (15), or "eq9" for
         Eq. (9) with the exponents of Table 1, linear in alpha between them.
-    rtol : float, default 0.02
-        Relative error that will do with "auto" [-]; `relative_error` of the result says which
-        bound holds.
+    rtol : float, optional
+        Relative error that has to be met with "auto" [-], else an `AccuracyError` is raised; by
+        default 0.02 where it can be had, and else the best there is. `relative_error` of the result
+        says which bound holds.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
-        the nearest alpha.
+        the nearest alpha; and kappa with the nearest load.
     law : str, default "projected"
         "projected" for Eq. (S2) of the paper, whose A and B take the shear stress along the cut
         only; "slip" for the balance of energy to first order in tau_w and xi, with the slip arc A*
-        and the slip load B* in their place, which needs a fitted model. Eq. (S2) is too small by a
-        tenth of F_d in the far field, by a quarter to a half at g = 1, and by more above.
+        and the slip load B* in their place, which needs a fitted model; "coupled" for the stresses
+        acting on the body, kappa times the slip law. Eq. (S2) is too small by a tenth of F_d in the
+        far field, by a quarter to a half at g = 1, and by more above. "auto" for the cheapest of
+        them whose error beside coupled solutions will do; where nobody knows that error it is
+        "projected", the law with an experiment behind it, whose tau_w is an effective one then.
+    outside : str, default "raise"
+        What becomes of points outside the domain of a fitted model: "raise" for an error that names
+        the first, "nan" for nan in their total, friction and wear, and False in `in_domain`.
 
     Returns
     -------
@@ -123,14 +148,16 @@ def cutting_force(
     ------
     InputError
         If `scene` is not a `Scene`, `rtol` not a positive number, `extrapolate` not True or False,
-        or a fitted model's file is missing or damaged.
+        `outside` or `law` of another kind, or a fitted model's file is missing or damaged.
     UnknownModelError
         If there is no such model.
     DomainError
         If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
-        domain of a fitted model and `extrapolate` is not set.
+        domain of a fitted model, or under the law "coupled" the load outside the coupled
+        solutions, and `extrapolate` is not set.
     AccuracyError
-        If the model is "auto" and none is as exact as `rtol`; the message names the best one.
+        If `rtol` is given, the model or the law is "auto" and none is as exact; the message names
+        the best one.
 
     Warns
     -----
@@ -168,13 +195,17 @@ def cutting_force(
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
-    force = force_of(scene, of_law(model, law), rtol, extrapolate)
+    force = force_of(scene, of_law(model, law, any_law=True), rtol, extrapolate, outside)
     warn_of_scene(scene.values())
     return force
 
 
 def force_of(
-    scene: Scene, model: str | ForceModel = AUTO, rtol: float = 0.02, extrapolate: bool = False
+    scene: Scene,
+    model: str | ForceModel = AUTO,
+    rtol: float | None = None,
+    extrapolate: bool = False,
+    outside: str = "raise",
 ) -> CuttingForce:
     """Return the force as `cutting_force` does, of scenes that nobody gave as they are.
 
@@ -183,10 +214,13 @@ def force_of(
     >>> force_of(Scene(1.0, 1.0, 1.0), "eq13").total
     1.0
     """
-    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
-    if is_auto(model):
+    rtol = None if rtol is None else one_number(RTOL, rtol)
+    extrapolate = flag("extrapolate", extrapolate)
+    stays = extrapolate or _is_nan(outside)
+    if is_chosen(model):
         require_scene(scene)
-        return _automatic(scene, rtol, extrapolate)
+        of_points = _automatic if is_auto(model) else _lawful
+        return _blanked(of_points(scene, rtol, stays), scene, stays and not extrapolate)
     chosen = force_model(model)
     require_scene(scene)
     values = scene.values()
@@ -202,20 +236,85 @@ def force_of(
     total, cleavage, friction, wear, holds = apply(
         parts, values, (float, float, float, float, bool), AT_ONCE if fitted else WHOLE
     )
-    if fitted and not extrapolate and not (holds is True or np.all(holds)):
+    if fitted and not stays and not (holds is True or np.all(holds)):
         require_inside(chosen, values)
-    bound = None
+        require_known_load(chosen, values)
+    bound = of_law = None
     if isinstance(chosen, FittedModel) and chosen.law != PROJECTED:
-        mu, gamma, radius, *_, alpha = values
-        with np.errstate(all="ignore"):
-            g = quotient(gamma, mu, radius)
-        bound = force_bound(chosen, g, alpha, (cleavage, friction, wear))
-    return CuttingForce(
-        total, cleavage, friction, wear, chosen.name, bound, holds, chosen.name, chosen.law
+        bound = force_bound(chosen, values, (cleavage, friction, wear))
+        of_law = None if chosen.law == SLIP else np.zeros(scene.shape) if scene.shape else 0.0
+    force = CuttingForce(
+        total,
+        cleavage,
+        friction,
+        wear,
+        chosen.name,
+        bound,
+        holds,
+        chosen.name,
+        chosen.law,
+        chosen.law,
+        bound,
+        of_law,
+    )
+    return _blanked(force, scene, fitted and stays and not extrapolate)
+
+
+def _is_nan(outside: object) -> bool:
+    if outside in ("raise", "nan"):
+        return outside == "nan"
+    raise InputError(
+        f"outside must be 'raise' or 'nan', but is {shown(outside)}; give 'nan' for no number "
+        "where a model does not hold."
     )
 
 
-def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
+def _blanked(force: CuttingForce, scene: Scene, blank: bool) -> CuttingForce:
+    """Return a force with nan where its model does not hold, if that is asked for."""
+    if not blank or np.all(force.in_domain):
+        return force
+    if not scene.shape:
+        return replace(force, total=np.nan, friction=np.nan, wear=np.nan)
+    for values in (force.total, force.friction, force.wear):
+        np.asarray(values)[~np.asarray(force.in_domain)] = np.nan
+    return force
+
+
+def _lawful(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
+    from surrogate.choosing.auto import one_name
+    from surrogate.choosing.auto_law import LawfulTerms
+
+    values = scene.values()
+    lawful = LawfulTerms(values, rtol)
+
+    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
+        cleavage = gamma + 0.0
+        friction, wear, *rest = lawful(mu, gamma, *others)
+        return cleavage + friction + wear, cleavage, friction, wear, *rest
+
+    dtypes = float, float, *lawful.dtypes
+    total, cleavage, friction, wear, holds, model, law, fit, of_law = apply(
+        parts, values, dtypes, AT_ONCE
+    )
+    lawful.finish(extrapolate)
+    names, laws = lawful.names(model), lawful.laws(law)
+    return CuttingForce(
+        total,
+        cleavage,
+        friction,
+        wear,
+        one_name(names),
+        fit + of_law,
+        holds,
+        names,
+        one_name(laws),
+        laws,
+        fit,
+        of_law,
+    )
+
+
+def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.auto import AutomaticTerms, one_name
 
     values = scene.values()
@@ -230,107 +329,14 @@ def _automatic(scene: Scene, rtol: float, extrapolate: bool) -> CuttingForce:
     total, cleavage, friction, wear, holds, number, bound = apply(parts, values, dtypes, AT_ONCE)
     automatic.finish(extrapolate)
     names = automatic.names(number)
-    return CuttingForce(total, cleavage, friction, wear, one_name(names), bound, holds, names)
-
-
-def dissipative_force(
-    g: ArrayLike,
-    alpha: ArrayLike,
-    friction_coefficient: ArrayLike,
-    relative_wear_strength: ArrayLike,
-    model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
-    extrapolate: bool = False,
-    law: str = PROJECTED,
-) -> FloatOrArray:
-    """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
-
-    Parameters
-    ----------
-    g : float or array_like
-        Dimensionless toughness Gamma_o/(mu R_w) [-], finite.
-    alpha : float or array_like
-        Stiffening exponent [-], positive.
-    friction_coefficient : float or array_like
-        xi [-].
-    relative_wear_strength : float or array_like
-        tau_w/mu [-].
-    model : str, default "auto"
-        As in `cutting_force`.
-    rtol : float, default 0.02
-        Relative error of this force that will do with "auto" [-].
-    extrapolate : bool, default False
-        As in `cutting_force`.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
-
-    Returns
-    -------
-    float or ndarray
-        F_d/(mu R_w T) = 2 (tau_w A/mu + xi B) [-], of the common shape; with A* and B* under the
-        law "slip".
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range or the shapes do not broadcast.
-    UnknownModelError
-        If there is no such model.
-    DomainError
-        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
-        domain of a fitted model and `extrapolate` is not set.
-    AccuracyError
-        If the model is "auto" and none is as exact as `rtol`.
-
-    Notes
-    -----
-    Range of validity: that of the model, see `cutting_force`.
-
-    References
-    ----------
-    arXiv:2412.02021, Eqs. (9), (11), (13), (S2) and Fig. 4.
-
-    Examples
-    --------
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.0f}")
-    33
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq13'):.4f}")
-    46.6400
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
-    1.5136
-    """
-    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
-    values = (g, alpha, friction_coefficient, relative_wear_strength)
-    model = of_law(model, law)
-    automatic = is_auto(model)
-    chosen = force_model("table" if automatic else model)
-    in_g, in_alpha = chosen.accepted(extrapolate)
-    quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
-    if automatic:
-        return _automatic_dissipation(quantities, values, rtol, extrapolate)
-
-    def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
-        friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
-        return friction + wear
-
-    return evaluate_checked(dissipation, quantities, values)
-
-
-def _automatic_dissipation(
-    quantities: tuple[Quantity, ...], values: tuple[Any, ...], rtol: float, extrapolate: bool
-) -> FloatOrArray:
-    from surrogate.choosing.auto import AutomaticTerms
-
-    checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
-    broadcast_shape(tuple(q.name for q in quantities), checked)
-    g, alpha, xi, relative_wear = checked
-    scene = (1.0, g, 1.0, xi, relative_wear, alpha)
-    automatic = AutomaticTerms(scene, rtol, of_dissipation=True)
-    friction, wear, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
-    automatic.finish(extrapolate)
-    return friction + wear  # type: ignore[no-any-return]
-
-
-@cache
-def _as_alpha(stiffening: Quantity) -> Quantity:
-    return replace(stiffening, name="alpha")
+    return CuttingForce(
+        total,
+        cleavage,
+        friction,
+        wear,
+        one_name(names),
+        bound,
+        holds,
+        names,
+        fit_error=bound,
+    )

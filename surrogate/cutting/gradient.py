@@ -11,7 +11,7 @@ from surrogate.basics.elementwise import apply
 from surrogate.basics.records import Record
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import PROJECTED, of_law, require_known_load
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
@@ -158,6 +158,7 @@ def force_gradient(
     elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
         mu, gamma, radius, _, _, alpha = scene.values()
         require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
+        require_known_load(chosen, scene.values())
     with np.errstate(all="ignore"):
         slopes = apply(chosen.gradient, scene.values(), (float,) * 6)
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import (
     ABOVE_HALF,
-    RTOL,
     FloatOrArray,
     Quantity,
     flag,
@@ -18,8 +17,8 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import AT_ONCE, apply, product, ratio
 from surrogate.basics.records import Record
-from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.by_name import AUTO, force_model
+from surrogate.choosing.laws import PROJECTED, is_chosen, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.reading.plausibility import warn_of_scene
@@ -95,7 +94,7 @@ def classify(
     scene: Scene,
     threshold: float = DOMINANT_SHARE,
     model: str | ForceModel = AUTO,
-    rtol: float = 0.02,
+    rtol: float | None = None,
     extrapolate: bool = False,
     law: str = PROJECTED,
 ) -> Regime:
@@ -110,8 +109,9 @@ def classify(
         up to 1. The default asks for twice as much as the other terms together.
     model : str, default "auto"
         The force model, as in `cutting_force`.
-    rtol : float, default 0.02
-        Relative error of the force that will do with "auto" [-].
+    rtol : float, optional
+        Relative error of the force that has to be met with "auto" [-]; by default 0.02 where it can
+        be had.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.
     law : str, default "projected"
@@ -132,7 +132,7 @@ def classify(
     ------
     InputError
         If `scene` is not a `Scene`, the threshold not a number above 0.5 and at most 1, `rtol` not
-        a positive number, or `extrapolate` not True or False.
+        a positive number, `extrapolate` not True or False, or `law` of another kind.
     UnknownModelError
         If there is no such model.
     DomainError
@@ -167,8 +167,8 @@ def classify(
     """
     require_scene(scene)
     share = one_number(THRESHOLD, threshold)
-    rtol, extrapolate = one_number(RTOL, rtol), flag("extrapolate", extrapolate)
-    model = of_law(model, law)
+    extrapolate = flag("extrapolate", extrapolate)
+    model = of_law(model, law, any_law=True)
     split = isinstance(model, str) and model == SPLIT_MODEL
     force = None if split else force_of(scene, model, rtol, extrapolate)
     regime = regime_of(scene, force, share, model)
@@ -240,7 +240,7 @@ def touching_toughness(model: str | ForceModel, alpha: FloatOrArray) -> FloatOrA
     >>> touching_toughness("eq13", 2.0)
     1.0
     """
-    own = getattr(force_model("table" if is_auto(model) else model), "touching_toughness", None)
+    own = getattr(force_model("table" if is_chosen(model) else model), "touching_toughness", None)
     return TOUCHING_TOUGHNESS if own is None else own(alpha)
 
 

@@ -44,7 +44,7 @@ from surrogate.basics.elementwise import (
 from surrogate.basics.roots import narrowed
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, of_law, require_known_load
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.errors import DomainError
@@ -349,6 +349,9 @@ def _radii(
     with np.errstate(all="ignore"):
         g = _zeros(chosen, wear[rows] / mu[rows], xi[rows], alpha)
         radius[rows] = quotient(gamma[rows], mu[rows], g)
+    between = rows[np.isfinite(g) & (g > 0.0)]
+    of_rows = (mu[between], gamma[between], radius[between], xi[between], wear[between], alpha)
+    require_known_load(chosen, of_rows)
     return radius
 
 
@@ -380,6 +383,8 @@ def _zeros(chosen: ForceModel, relative: Array, xi: Array, alpha: float) -> Arra
 
 def _difference(chosen: ForceModel, g: Array, relative: Array, xi: Array, alpha: float) -> Array:
     """Return h(g); A and B are evaluated only where wear and friction ask for them."""
+    if chosen.law == COUPLED:
+        return _difference_of(chosen, g, relative, xi, alpha)
     total: Any = g
     if np.any(relative):
         arc = 2.0 * g * chosen.arc_slopes(g, alpha)[0] - chosen.arc(g, alpha)
@@ -388,6 +393,13 @@ def _difference(chosen: ForceModel, g: Array, relative: Array, xi: Array, alpha:
         load = 2.0 * g * chosen.normal_load_slopes(g, alpha)[0] - chosen.normal_load(g, alpha)
         total = total + 2.0 * xi * load
     return np.asarray(np.broadcast_to(total, np.broadcast_shapes(g.shape, relative.shape)))
+
+
+def _difference_of(chosen: ForceModel, g: Array, relative: Array, xi: Array, alpha: float) -> Array:
+    """Return h(g) = 2 g f' - f of any force f(g) mu R_w."""
+    friction, worn = chosen.terms(1.0, g, 1.0, xi, relative, alpha)
+    slope = chosen.gradient(1.0, g, 1.0, xi, relative, alpha)[1]
+    return np.asarray(2.0 * g * slope - (g + friction + worn))
 
 
 def _check_ends(

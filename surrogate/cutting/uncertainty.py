@@ -21,7 +21,7 @@ from surrogate.basics.elementwise import apply, quotient
 from surrogate.basics.records import Shown
 from surrogate.choosing.accuracy import contact_std, one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import force_of
 from surrogate.cutting.gradient import force_gradient
@@ -249,7 +249,19 @@ def _model_std(chosen: ForceModel, scene: Scene) -> Any:
         if stds is None:
             return None
         arc, load = np.multiply(2.0 * radius, wear), np.multiply(2.0 * radius, xi) * mu
-        return np.hypot(_times(stds[0], arc), _times(stds[1], load)) + np.zeros(scene.shape)
+        first = np.hypot(_times(stds[0], arc), _times(stds[1], load))
+        if chosen.law == COUPLED:
+            first = np.hypot(*_amplified(chosen, scene, first))
+        return first + np.zeros(scene.shape)
+
+
+def _amplified(chosen: Any, scene: Scene, first: Any) -> tuple[Any, Any]:
+    """Return the deviation of the first order times kappa, and that of kappa itself."""
+    mu, gamma, radius, xi, wear, alpha = scene.values()
+    load = apply(quotient, (gamma, mu, radius)), alpha, xi, np.divide(wear, mu)
+    kappa = np.exp(chosen.amplification.log_factor(*load))
+    drag = np.add(*chosen.terms(*scene.values()))
+    return first * kappa, drag * np.expm1(chosen.amplification.error(*load)) / np.sqrt(3.0)
 
 
 def _combined(

@@ -75,7 +75,7 @@ def page_numbers(
         "threshold": DOMINANT_SHARE,
         "transition": PARTS[0],
         "parts": PARTS[1:],
-        "quantities": [_quantity(*each, alpha=limits.alpha) for each in _SHOWN],
+        "quantities": [_quantity(*one, alpha=limits.alpha) for one in _SHOWN],
         "start": {
             **{KEYS[name]: float(value) for name, value in zip(NAMES, scene.values(), strict=True)},
             "law": law,

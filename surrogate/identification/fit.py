@@ -14,12 +14,14 @@ from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel
+from surrogate.coupling.model import CoupledModel
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import WithFriction, with_friction
 from surrogate.identification.open_questions import undecided
 from surrogate.identification.profile_fit import fit_profile
 from surrogate.identification.summary import answer, summary
+from surrogate.inference.coupled_fit import coupled_fit
 from surrogate.inference.inputs import (
     FRICTION_COEFFICIENT,
     NOTHING_KNOWN,
@@ -272,7 +274,8 @@ def identify(
         across as far as theirs allow.
     law : str, default "projected"
         Which functions of the contact wear and friction follow, as in `cutting_force`. A wear
-        strength that was identified by one law does not belong into the other.
+        strength that was identified by one law does not belong into another. Under "coupled"
+        intervals are those with kappa at the estimate.
 
     Returns
     -------
@@ -289,7 +292,8 @@ def identify(
     UnknownModelError
         If there is no such model.
     DomainError
-        If the model does not reach to alpha, or covers no toughness for all of the wires.
+        If the model does not reach to alpha, or covers no toughness for all of the wires; under the
+        law "coupled" if coupled solutions do not reach to the friction and wear of a cut.
     AccuracyError
         If the model is "auto" and none is as exact as `rtol`.
 
@@ -367,11 +371,16 @@ def identify(
     if scatter is not None:
         cuts = replace(cuts, weights=scatter.weights, sample_ratio=scatter.sample_ratio)
     probability = one_number(CONFIDENCE, confidence)
-    fit: dict[str, Any]
-    if is_linear(chosen) and given == NOTHING_KNOWN:
-        fit = fit_line(cuts, chosen)
+
+    def fitted(model: str | ForceModel) -> dict[str, Any]:
+        if is_linear(model) and given == NOTHING_KNOWN:
+            return fit_line(cuts, model)
+        return fit_profile(cuts, model, given, probability, further_radii)
+
+    if isinstance(law_model, CoupledModel):
+        chosen, fit = coupled_fit(law_model, cuts, fitted)
     else:
-        fit = fit_profile(cuts, chosen, given, probability, further_radii)
+        fit = fitted(chosen)
     weight, residuals = cuts.weight, fit["residuals"]
     dof = cuts.force.size + given.facts - 2
     misfit = fit.pop("misfit")

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel
+from surrogate.coupling.frozen import FrozenLoad
 
 __all__ = ["CORRELATION_LENGTH", "ContactError", "contact_error", "correlation", "is_continued"]
 
@@ -103,9 +104,11 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
         return None
     low, high = model.ends(alpha)
     inside = np.minimum(np.maximum(g, low), high)
-    near = contact_bounds(model, inside, alpha)
-    if near is None:
+    bounds = contact_bounds(model, inside, alpha)
+    if bounds is None:
         return None
+    own = model.own_error(inside, alpha) if isinstance(model, FrozenLoad) else 0.0
+    near = [np.fmin(bound + own, LARGEST_ERROR) for bound in bounds]
     below, above = g < low, g > high
     drifts = []
     for bound, rates in zip(near, _dropped_slopes(model), strict=True):

@@ -38,10 +38,10 @@ def table_part(table: Any, functions: Mapping[str, str], dialect: Dialect) -> st
     text = _TEXT[dialect.name]
     head, of_one = text.split("<<each>>")
     numbers = _numbers(grid, table.limits, dialect)
-    each = "".join(
+    definitions = "".join(
         of_one.replace("<<NAME>>", name).replace("<<name>>", name.lower()) for name in nodes
     )
-    filled = head.replace("<<arrays>>", arrays) + each
+    filled = head.replace("<<arrays>>", arrays) + definitions
     for key, value in numbers.items():
         filled = filled.replace(f"<<{key}>>", value)
     return filled.strip("\n")

@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 from urllib.parse import parse_qs
 
 import numpy as np
@@ -219,6 +220,19 @@ def test_what_is_out_of_range_is_said_in_words(page, name, text, words):
     assert "total" not in page.numbers()
     typed(page, name, repr(GEL[name] / {"mu": 1e3, "R_w": 1e-3}.get(name, 1.0)).replace(".", ","))
     assert page.text("number") == "7.17"
+    assert page.complaints() == []
+
+
+@pytest.mark.parametrize("name", GEL)
+def test_extremes_are_answered_in_words(page, name):
+    page.open()
+    for value in (0.0, 5e-324, 1e-300, 1e-30, 1e30, 1e300, 1.7e308, math.inf, math.nan, -1.0):
+        page.set(address(**{name: value}))
+        shown = page.run("return document.querySelector('main').innerText;")
+        assert not re.search(r"NaN|undefined|Infinity|null", shown), (value, shown)
+        drawn = page.run("return document.querySelector('main').innerHTML;")
+        assert not re.search(r'(?: d| x| y| transform| width)="[^"]*(?:NaN|Infinity)', drawn), value
+        assert page.text("says")
     assert page.complaints() == []
 
 

@@ -35,8 +35,8 @@ def test_it_is_one_small_file_that_asks_for_nothing():
 
 def test_every_law_of_the_library_is_in_the_page_with_its_functions():
     page = explorer_page()
-    found = re.findall(r'name: "(\w+)".*?arc: "(\w+)", load: "(\w+)"', page, re.DOTALL)
-    assert {name: (arc, load) for name, arc, load in found} == {
+    entries = re.findall(r'name: "(\w+)".*?arc: "(\w+)", load: "(\w+)"', page, re.DOTALL)
+    assert {name: (arc, load) for name, arc, load in entries} == {
         law: TERMS_OF_LAW[law] for law in LAWS
     }
 

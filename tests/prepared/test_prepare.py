@@ -348,6 +348,7 @@ def test_arguments_are_given_once():
         ({"fixed": Scene([685.0], 1.6, 1e-4)}, InputError, "must be one number"),
         ({"model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"law": "greed"}, InputError, "law must be one of projected, slip"),
+        ({"law": "coupled"}, InputError, "call cutting_force with law='coupled'"),
         ({"law": "slip", "model": "eq13"}, InputError, "must have a model fitted"),
         ({"law": "slip", "model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"model": "eq9"}, InputError, "neither the table nor a closed form"),

@@ -61,6 +61,8 @@ function showField({q, caption, slider, number, unit}, state) {
   number.setAttribute("aria-invalid", String(wrong));
 }
 
+const isCut = (across, force) => across > 0 && across < 1e3 && force >= 0 && force < 1e300;
+
 // The cuts of a text: a wire in mm and a force in N/m in each line, and its standard error.
 function cutsOf(text, diameters) {
   const cuts = [], wrong = [];
@@ -68,7 +70,7 @@ function cutsOf(text, diameters) {
     if (!line.trim() || line.trim().startsWith("#")) continue;
     const between = /[\s;]/.test(line.trim()) ? /[\s;]+/ : ",";  // where a comma may be decimal
     const [across, force, std] = line.trim().split(between).map(readNumber);
-    if (across > 0 && force >= 0 && !(std < 0)) cuts.push([1e-3*across/(diameters ? 2 : 1), force, std || null]);
+    if (isCut(across, force) && !(std < 0)) cuts.push([1e-3*across/(diameters ? 2 : 1), force, std || null]);
     else wrong.push(line.trim());
   }
   return {cuts, wrong};
@@ -100,7 +102,7 @@ function stateOf(address) {
     if (key === "diameters") state.diameters = value === "1";
     if (key === "cuts") {
       state.cuts = value.split(";").map((cut) => cut.split(":").map(readNumber))
-        .filter(([radius, force]) => radius > 0 && force >= 0)
+        .filter(([radius, force]) => isCut(radius, force))
         .map(([radius, force, std]) => [radius, force, std > 0 ? std : null]);
     }
   }

@@ -17,7 +17,8 @@ function curveOf(law, state, right, count = CURVE) {
   const touch = state.Gamma_o/(state.mu*touchOf(state.alpha));
   radii.push(touch*(1 - 1e-9), touch*(1 + 1e-9));  // A* jumps there
   return radii.filter((r) => r >= low && r <= high).sort((a, b) => a - b)
-    .map((radius) => ({radius, ...forceOf(law, withRadius(state, radius))}));
+    .map((radius) => ({radius, ...forceOf(law, withRadius(state, radius))}))
+    .filter((one) => one.total < 1e300);  // the most that a scale can be made for
 }
 
 // A law that is as many times higher leaves the picture, so that the parts stay to be seen.
@@ -164,6 +165,7 @@ function drawBeyond(frame, curve, x, y, fill) {
 function placeOnCurve(plot, state, law, x, y) {
   const force = refusal(state) ? null : forceOf(law, state);
   const radius = clamped(Number.isNaN(state.R_w) ? 0 : state.R_w, 0, x.from(x.end));
-  placeHandle(plot, [x.to(radius), force ? y.to(force.total) : y.start], state,
+  const height = force ? clamped(y.to(force.total), y.end, y.start) : y.start;
+  placeHandle(plot, [x.to(radius), height], state,
     `${wire(state, state.R_w)}, ${force ? `${digits(force.total)} N/m` : "no force"}`, !force);
 }

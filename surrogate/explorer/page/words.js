@@ -60,7 +60,10 @@ function refusal(state) {
     return `α = ${digits(alpha, 4)} is outside the table, which covers ${first} to ${last}; no force `
       + "is shown, because the table is not continued beyond its ends.";
   }
-  if (holds(g, alpha)) return "";
+  if (holds(g, alpha)) {
+    return Number.isFinite(forceOf(lawOf(state.law), state).total) ? ""
+      : "The force is beyond the range of numbers; none is shown. Check the units.";
+  }
   const [thinnest, thickest] = radiiOf(state), high = g > highestG(alpha);
   return `g = Γ_o/(μ R_w) = ${digits(g)} is outside the table, which covers `
     + `${DATA.domain.g[0]} to ${digits(highestG(alpha))} at this α; no force is shown, because the `
@@ -109,14 +112,14 @@ function saysCovered(state) {
 }
 
 function saysTransition(law, state) {
-  const found = transitionOf(law, state);
+  const transition = transitionOf(law, state);
   const words = {
     never: "Without wear and friction the radius does not matter.",
     below: "The transition radius is beyond the thickest wire that the table covers.",
     above: "The transition radius is below the thinnest wire that the table covers.",
   };
-  if (found.why) return words[found.why];
-  return `Transition radius: at ${wire(state, found.radius)} what the radius changes becomes as large `
+  if (transition.why) return words[transition.why];
+  return `Transition radius: at ${wire(state, transition.radius)} what the radius changes becomes as large `
     + "as what it does not.";
 }
 

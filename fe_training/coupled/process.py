@@ -1,0 +1,132 @@
+"""A Gaussian process of ln kappa that vanishes with friction and wear, exactly.
+
+    ln kappa = xi f(x, y, xi, w) + w h(x, y, xi, w)
+
+with x = ln(g/g_touch), y = ln alpha, w = ln(1 + tau_w/mu), and f and h independent Gaussian
+processes with squared-exponential covariances, each with a length for every variable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["LoadProcess", "fit_process"]
+
+Array = NDArray[np.float64]
+
+_JITTER = 1e-10
+_LENGTHS = ((0.5, 40.0), (0.1, 10.0), (0.05, 10.0), (0.1, 20.0))
+_SIZES = (1e-2, 1e2)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadProcess:
+    """The process with its data.
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (points, 4)
+        x, y, xi and w.
+    values, noise : ndarray, shape (points,)
+        ln kappa and the variance of its error.
+    sizes : ndarray, shape (2,)
+        Standard deviations of f and h.
+    lengths : ndarray, shape (2, 4)
+        Their lengths.
+    calibration : float
+        Factor of the standard deviation, found by leaving bases out.
+    """
+
+    inputs: Array
+    values: Array
+    noise: Array
+    sizes: Array
+    lengths: Array
+    calibration: float = 1.0
+
+    def covariance(self, a: Array, b: Array) -> Array:
+        """Return the prior covariance of ln kappa at points."""
+        total = np.zeros((len(a), len(b)))
+        for column, size, length in zip((2, 3), self.sizes, self.lengths, strict=True):
+            scaled, other = a / length, b / length
+            square = ((scaled[:, None] - other[None]) ** 2).sum(axis=2)
+            total += size**2 * np.outer(a[:, column], b[:, column]) * np.exp(-0.5 * square)
+        return total
+
+    @cached_property
+    def _factor(self) -> tuple[Any, Array]:
+        from scipy.linalg import cho_factor, cho_solve
+
+        matrix = self.covariance(self.inputs, self.inputs)
+        matrix[np.diag_indices_from(matrix)] += self.noise + _JITTER
+        factor = cho_factor(matrix, lower=True)
+        return factor, np.asarray(cho_solve(factor, self.values))
+
+    def predict(self, at: Array) -> tuple[Array, Array]:
+        """Return mean and standard deviation of ln kappa at points of shape (n, 4)."""
+        from scipy.linalg import solve_triangular
+
+        factor, weights = self._factor
+        across = self.covariance(at, self.inputs)
+        prior = np.array([self.covariance(row[None], row[None])[0, 0] for row in at])
+        spread = solve_triangular(factor[0], across.T, lower=True)
+        variance = np.maximum(prior - (spread**2).sum(axis=0), 0.0)
+        return across @ weights, self.calibration * np.sqrt(variance)
+
+    def log_likelihood(self) -> float:
+        """Return the logarithm of the marginal likelihood."""
+        factor, weights = self._factor
+        halves = np.log(np.diag(factor[0])).sum()
+        return float(-0.5 * self.values @ weights - halves)
+
+    def left_out(self, groups: NDArray[Any]) -> tuple[Array, Array]:
+        """Return error and standard deviation of each point, its whole group left out."""
+        from scipy.linalg import cho_solve
+
+        factor, weights = self._factor
+        inverse = cho_solve(factor, np.eye(len(self.values)))
+        error, std = np.empty(len(self.values)), np.empty(len(self.values))
+        for group in np.unique(groups):
+            rows = np.flatnonzero(groups == group)
+            block = np.linalg.inv(inverse[np.ix_(rows, rows)])
+            error[rows] = -block @ weights[rows]
+            std[rows] = np.sqrt(np.maximum(np.diag(block) - self.noise[rows], 0.0))
+        return error, self.calibration * std
+
+
+def fit_process(inputs: Array, values: Array, noise: Array, starts: int = 3) -> LoadProcess:
+    """Return the process of the largest marginal likelihood.
+
+    Parameters
+    ----------
+    inputs, values, noise : ndarray
+        As those of `LoadProcess`.
+    starts : int
+        Searches, from different lengths.
+    """
+    from scipy.optimize import minimize
+
+    bounds = [np.log(_SIZES)] * 2 + [np.log(pair) for pair in _LENGTHS] * 2
+
+    def process(parameters: Array) -> LoadProcess:
+        found = np.exp(parameters)
+        return LoadProcess(inputs, values, noise, found[:2], found[2:].reshape(2, 4))
+
+    def cost(parameters: Array) -> float:
+        try:
+            return -process(parameters).log_likelihood()
+        except np.linalg.LinAlgError:
+            return 1e10
+
+    best: Any = None
+    for share in np.linspace(0.35, 0.75, starts):
+        start = np.array([low + share * (high - low) for low, high in bounds])
+        found = minimize(cost, start, method="L-BFGS-B", bounds=bounds)
+        if best is None or found.fun < best.fun:
+            best = found
+    return process(best.x)

@@ -1,0 +1,1 @@
+"""What friction and wear do to their own force: the factor of the law "coupled"."""

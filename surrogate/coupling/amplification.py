@@ -1,0 +1,202 @@
+"""How many times its first order the force of friction and wear is, as they act on the body.
+
+F_d = 2 mu R_w [(tau_w/mu) A* + xi B*] kappa(g, alpha, xi, tau_w/mu), with kappa = 1 without load:
+ln kappa is a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu) without
+terms free of xi and w. It was fitted to coupled finite-element solutions in which the tip does not
+touch the wire, and is known up to a share of 1 of the loads that they reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surrogate.basics.elementwise import dense, log, where
+from surrogate.contact.coordinates import log_touch, log_touch_slope
+from surrogate.coupling.polynomial import Polynomial
+
+__all__ = ["Amplification"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Amplification:
+    """The logarithm of kappa, where it is known, and how far it may be off.
+
+    Parameters
+    ----------
+    touch : tuple of float
+        Coefficients of ln g_touch in powers of ln alpha.
+    polynomial : Polynomial
+        ln kappa of x, y, xi and w.
+    axes : tuple of ndarray
+        Nodes in x, in y and of the direction of the load, which is 0 for friction alone and 1 for
+        wear alone; where `reach` is known.
+    reach : ndarray, shape of the axes
+        The largest load of each direction, as a share of the largest one of the campaign.
+    largest : tuple of float
+        The largest xi and tau_w/mu of the campaign [-].
+    edges : tuple of tuple of float
+        Of the cells in x and in y.
+    errors : ndarray, shape (cells in x, cells in y)
+        Bound of |ln kappa - that of finite elements|.
+    growth : ndarray, shape (cells in x, cells in y)
+        Largest |ln kappa| over xi + w/10.
+    about : mapping
+        What is told of the data and the fit.
+    """
+
+    touch: tuple[float, ...]
+    polynomial: Polynomial
+    axes: tuple[Array, Array, Array]
+    reach: Array
+    largest: tuple[float, float]
+    edges: tuple[tuple[float, ...], tuple[float, ...]]
+    errors: Array
+    growth: Array
+    about: Mapping[str, Any] = field(default_factory=dict, repr=False)
+
+    def log_factor(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return ln kappa; with the nearest load, g and alpha that are known where these are not.
+
+        Parameters
+        ----------
+        g, alpha, xi, wear : float or ndarray
+            Gamma_o/(mu R_w), the stiffening exponent, the friction and tau_w/mu [-].
+        """
+        return self.polynomial(*self._at(g, alpha, xi, wear)[0])
+
+    def factor_and_known(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any]:
+        """Return ln kappa, and whether it is known there or without any load."""
+        variables, free = self._at(g, alpha, xi, wear)
+        unloaded = np.equal(xi, 0.0) & np.equal(wear, 0.0)
+        return self.polynomial(*variables), free | unloaded
+
+    def slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any, Any]:
+        """Return the derivatives of ln kappa by ln g, ln alpha, xi and tau_w/mu."""
+        variables, free = self._at(g, alpha, xi, wear)
+        by_x, by_y, by_xi, by_w = (one(*variables) for one in self.polynomial.derivatives)
+        in_g = where(free, by_x, 0.0)
+        bend = log_touch_slope(self.touch, log(alpha))
+        return (
+            in_g,
+            where(free, by_y - by_x * bend, 0.0),
+            where(free, by_xi, 0.0),
+            where(free, by_w / (1.0 + wear), 0.0),
+        )
+
+    def share(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return the load over the largest one that is known there; infinite outside g and alpha.
+
+        0 without any load.
+        """
+        return self.share_at(*self._place(g, alpha), xi, wear)
+
+    def share_at(self, x: Any, y: Any, xi: Any, wear: Any) -> Any:
+        """Return the same at x = ln(g/g_touch) and y = ln alpha."""
+        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
+        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
+        size, direction = self._load(xi, wear)
+        x, y = self._clamped(x, y)
+        with np.errstate(all="ignore"):
+            share = np.divide(size, self.reach_at(x, y, direction))
+        return where(size == 0.0, 0.0, where(inside, share, np.inf))
+
+    def error(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return the bound of the error of ln kappa; nan where it is not known."""
+        known = np.less_equal(self.share(g, alpha, xi, wear), 1.0)
+        return where(known, self._of_cell(self.errors, g, alpha), np.nan)
+
+    def most(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return a bound of |ln kappa|; nan where it is not known."""
+        known = np.less_equal(self.share(g, alpha, xi, wear), 1.0)
+        load = xi + 0.1 * _log1p(wear)
+        return where(known, self._of_cell(self.growth, g, alpha) * load, np.nan)
+
+    def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        y = log(alpha)
+        return log(g) - log_touch(self.touch, y), y
+
+    @cached_property
+    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        x, y, _ = self.axes
+        return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
+
+    def _clamped(self, x: Any, y: Any) -> tuple[Any, Any]:
+        (left, right), (low, high) = self._ends
+        return _between(x, left, right), _between(y, low, high)
+
+    def _load(self, xi: Any, wear: Any) -> tuple[Any, Any]:
+        """Return the size of a load, 1 on the outer edge of the campaign, and its direction."""
+        rubbed, worn = xi / self.largest[0], wear / self.largest[1]
+        size = where(np.greater(rubbed, worn), rubbed, worn)
+        with np.errstate(all="ignore"):
+            by_wear, by_friction = (
+                0.5 * part / where(size == 0.0, 1.0, size) for part in (worn, rubbed)
+            )
+            direction = where(np.greater(rubbed, worn), by_wear, 1.0 - by_friction)
+        return size, direction
+
+    def _at(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[tuple[Any, ...], Any]:
+        """Return the variables of the polynomial, and whether they are free to move."""
+        place = self._place(g, alpha)
+        x, y = self._clamped(*place)
+        size, direction = self._load(xi, wear)
+        reach = self.reach_at(x, y, direction)
+        free = (x == place[0]) & (y == place[1]) & (size <= reach)
+        most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
+        worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
+        known = size <= reach
+        xi, wear = where(known, xi, reach * most), where(known, wear, reach * worst)
+        return (x, y, xi, _log1p(wear)), free
+
+    def reach_at(self, x: Any, y: Any, direction: Any) -> Any:
+        """Return the reach between its nodes, linear in each of the three."""
+        places = [_node(axis, at) for axis, at in zip(self.axes, (x, y, direction), strict=True)]
+        (i, s), (j, t), (k, u) = places
+        total: Any = 0.0
+        for a, b, c in np.ndindex(2, 2, 2):
+            weight = (s if a else 1.0 - s) * (t if b else 1.0 - t) * (u if c else 1.0 - u)
+            corner = self.reach[i + a, j + b, k + c]
+            total = total + weight * (float(corner) if np.ndim(corner) == 0 else corner)
+        return total
+
+    def in_cell(self, cell: tuple[int, int], x: Array, y: Array) -> NDArray[np.bool_]:
+        """Return which points are in a cell of `errors` and `growth`."""
+        rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
+        columns = np.searchsorted(self.edges[1][1:-1], y, side="right")
+        return np.asarray((rows == cell[0]) & (columns == cell[1]))
+
+    def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
+        x, y = self._place(g, alpha)
+        rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
+        columns = np.searchsorted(self.edges[1][1:-1], y, side="right")
+        value = table[rows, columns]
+        return float(value) if np.ndim(value) == 0 else value
+
+
+def _between(value: Any, low: float, high: float) -> Any:
+    if type(value) is float:
+        return min(max(value, low), high)
+    return np.minimum(np.maximum(value, low), high)
+
+
+def _node(axis: Array, value: Any) -> tuple[Any, Any]:
+    """Return the number of the interval of an even axis and the place in it."""
+    step = float(axis[1] - axis[0])
+    place = (value - float(axis[0])) / step
+    if type(value) is float:
+        number = min(max(int(place), 0), len(axis) - 2) if place == place else 0
+        return number, place - number
+    numbers = np.fmin(np.fmax(place, 0.0), len(axis) - 2).astype(np.intp)
+    return numbers, place - numbers
+
+
+def _log1p(x: Any) -> Any:
+    return float(np.log1p(x)) if type(x) is float else np.log1p(dense(x))

@@ -1,0 +1,87 @@
+"""A polynomial of four variables, for floats and arrays alike, with its derivatives.
+
+It is evaluated by Horner's rule variable by variable, the first one outermost: what depends on
+floats alone is collapsed to floats, so that an array of radii costs one polynomial of ln g.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Polynomial"]
+
+
+@dataclass(frozen=True, eq=False)
+class Polynomial:
+    """A sum of coefficients times powers of variables.
+
+    Parameters
+    ----------
+    powers : ndarray of int, shape (terms, variables)
+        Of each variable in each term.
+    coefficients : ndarray, shape (terms,)
+        Of the terms.
+
+    Examples
+    --------
+    >>> powers = np.array([[1, 0, 0, 2], [0, 3, 0, 0]])
+    >>> cubic = Polynomial(powers, np.array([2.0, 1.0]))
+    >>> cubic(2.0, 3.0, 5.0, 0.5)
+    28.0
+    >>> cubic.derivatives[3](2.0, 3.0, 5.0, 0.5)
+    4.0
+    """
+
+    powers: NDArray[np.int64]
+    coefficients: NDArray[np.float64]
+
+    def __call__(self, *variables: Any) -> Any:
+        """Return the value at floats or at arrays that broadcast."""
+        return _horner(self._nested, variables)
+
+    @cached_property
+    def _nested(self) -> Any:
+        return _nested(self.powers.tolist(), self.coefficients.tolist())
+
+    @cached_property
+    def derivatives(self) -> tuple[Polynomial, ...]:
+        """The derivatives by the variables."""
+        return tuple(self._derivative(i) for i in range(self.powers.shape[1]))
+
+    def _derivative(self, variable: int) -> Polynomial:
+        there = self.powers[:, variable] > 0
+        powers = self.powers[there].copy()
+        factors = self.coefficients[there] * powers[:, variable]
+        powers[:, variable] -= 1
+        return Polynomial(powers, factors)
+
+
+def _nested(powers: Sequence[Sequence[int]], coefficients: Sequence[float]) -> Any:
+    """Return the coefficients as lists in lists: by the power of the first variable, and so on."""
+    if not powers:
+        return 0.0
+    if not powers[0]:
+        return float(sum(coefficients))
+    rows: list[Any] = []
+    for power in range(max(row[0] for row in powers) + 1):
+        some = [i for i, row in enumerate(powers) if row[0] == power]
+        rows.append(_nested([powers[i][1:] for i in some], [coefficients[i] for i in some]))
+    return rows
+
+
+def _horner(rows: Any, variables: Sequence[Any]) -> Any:
+    if type(rows) is float:
+        return rows
+    first, others = variables[0], variables[1:]
+    value = _horner(rows[-1], others)
+    for row in rows[-2::-1]:
+        value = value * first
+        if row != 0.0:
+            value = value + _horner(row, others)
+    return value

@@ -1,0 +1,108 @@
+"""The file of kappa: read beside the file of fitted models that is in use."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from surrogate.contact.archive import content_of, read_fitted
+from surrogate.contact.shipped import FILE, folder_in_use
+from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.polynomial import Polynomial
+from surrogate.errors import InputError
+
+__all__ = ["AMPLIFICATION_FILE", "amplification", "amplification_of", "content_of_amplification"]
+
+AMPLIFICATION_FILE = "coupled.npz"
+
+
+def content_of_amplification(kappa: Amplification) -> bytes:
+    """Return the content of the file of kappa."""
+    about = {
+        **kappa.about,
+        "touch": list(kappa.touch),
+        "largest": list(kappa.largest),
+        "edges": [list(each) for each in kappa.edges],
+    }
+    arrays = {
+        "powers": kappa.polynomial.powers.astype(np.uint8),
+        "coefficients": kappa.polynomial.coefficients,
+        "reach": kappa.reach,
+        "errors": kappa.errors,
+        "growth": kappa.growth,
+        **{f"axis.{name}": axis for name, axis in zip("xyz", kappa.axes, strict=True)},
+    }
+    return content_of(about, arrays)
+
+
+def amplification_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Amplification:
+    """Return kappa from what a file says and holds.
+
+    Raises
+    ------
+    InputError
+        If something is missing or of the wrong shape.
+    """
+    try:
+        axes = tuple(arrays[f"axis.{name}"] for name in "xyz")
+        first, second = (tuple(map(float, each)) for each in about["edges"])
+        xi, wear = map(float, about["largest"])
+        kappa = Amplification(
+            tuple(map(float, about["touch"])),
+            Polynomial(arrays["powers"].astype(np.int64), arrays["coefficients"]),
+            axes,
+            arrays["reach"],
+            (xi, wear),
+            (first, second),
+            arrays["errors"],
+            arrays["growth"],
+            about,
+        )
+        _require_shapes(kappa)
+    except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
+        raise InputError(
+            f"{AMPLIFICATION_FILE} must be complete, but {error!r} was met; install wirecut again, "
+            "or make the file anew with python -m fe_training.coupled --fit."
+        ) from None
+    return kappa
+
+
+def _require_shapes(kappa: Amplification) -> None:
+    nodes = tuple(len(axis) for axis in kappa.axes)
+    cells = tuple(len(edges) - 1 for edges in kappa.edges)
+    terms = len(kappa.polynomial.coefficients)
+    if kappa.polynomial.powers.shape != (terms, 4):
+        raise ValueError(f"powers of the shape {kappa.polynomial.powers.shape}")
+    for name, shape in (("reach", nodes), ("errors", cells), ("growth", cells)):
+        if getattr(kappa, name).shape != shape:
+            raise ValueError(f"{name} of the shape {getattr(kappa, name).shape}")
+    free = (kappa.polynomial.powers[:, 2:] == 0).all(axis=1)
+    if free.any() or not (kappa.reach >= 0.0).all():
+        raise ValueError("kappa that is not 1 without load")
+
+
+def amplification() -> Amplification:
+    """Return kappa of the models in use.
+
+    Raises
+    ------
+    InputError
+        If they have none, or its file is damaged.
+    """
+    return _in(folder_in_use())
+
+
+@cache
+def _in(folder: str) -> Amplification:
+    file = os.path.join(folder, AMPLIFICATION_FILE)
+    if not os.path.isfile(file):
+        raise InputError(
+            f"the law 'coupled' must have the file {AMPLIFICATION_FILE} beside {FILE}, but "
+            f"{folder} has none; choose the law 'slip', or make the file with "
+            "python -m fe_training.coupled --fit."
+        )
+    return amplification_of(*read_fitted(file))

@@ -1,0 +1,147 @@
+"""The dimensionless dissipative force: friction and wear over mu R_w."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from surrogate.basics.checks import (
+    FRICTION_COEFFICIENT,
+    RTOL,
+    FloatOrArray,
+    Quantity,
+    broadcast_shape,
+    flag,
+    one_number,
+)
+from surrogate.basics.elementwise import AT_ONCE, apply, evaluate_checked
+from surrogate.choosing.by_name import AUTO, force_model
+from surrogate.choosing.laws import (
+    ANY_LAW,
+    COUPLED,
+    PROJECTED,
+    is_chosen,
+    of_law,
+    require_known_load,
+)
+from surrogate.contact.base import ForceModel
+from surrogate.equations import RELATIVE_WEAR_STRENGTH
+
+__all__ = ["dissipative_force"]
+
+
+def dissipative_force(
+    g: ArrayLike,
+    alpha: ArrayLike,
+    friction_coefficient: ArrayLike,
+    relative_wear_strength: ArrayLike,
+    model: str | ForceModel = AUTO,
+    rtol: float | None = None,
+    extrapolate: bool = False,
+    law: str = PROJECTED,
+) -> FloatOrArray:
+    """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
+
+    Parameters
+    ----------
+    g : float or array_like
+        Dimensionless toughness Gamma_o/(mu R_w) [-], finite.
+    alpha : float or array_like
+        Stiffening exponent [-], positive.
+    friction_coefficient : float or array_like
+        xi [-].
+    relative_wear_strength : float or array_like
+        tau_w/mu [-].
+    model : str, default "auto"
+        As in `cutting_force`.
+    rtol : float, optional
+        Relative error of this force that has to be met with "auto" [-]; by default 0.02 where it
+        can be had.
+    extrapolate : bool, default False
+        As in `cutting_force`.
+    law : str, default "projected"
+        Which functions of the contact wear and friction follow, as in `cutting_force`.
+
+    Returns
+    -------
+    float or ndarray
+        F_d/(mu R_w T) = 2 (tau_w A/mu + xi B) [-], of the common shape; with A* and B* under the
+        law "slip".
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range or the shapes do not broadcast.
+    UnknownModelError
+        If there is no such model.
+    DomainError
+        If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
+        domain of a fitted model and `extrapolate` is not set.
+    AccuracyError
+        If the model is "auto" and none is as exact as `rtol`.
+
+    Notes
+    -----
+    Range of validity: that of the model, see `cutting_force`.
+
+    References
+    ----------
+    arXiv:2412.02021, Eqs. (9), (11), (13), (S2) and Fig. 4.
+
+    Examples
+    --------
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.0f}")
+    33
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq13'):.4f}")
+    46.6400
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq9'):.4f}")
+    1.5136
+    """
+    rtol = None if rtol is None else one_number(RTOL, rtol)
+    extrapolate = flag("extrapolate", extrapolate)
+    values = (g, alpha, friction_coefficient, relative_wear_strength)
+    model = of_law(model, law, any_law=True)
+    automatic = is_chosen(model)
+    chosen = force_model("table" if automatic else model)
+    in_g, in_alpha = chosen.accepted(extrapolate)
+    quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
+    if automatic:
+        return _automatic_dissipation(quantities, values, rtol, extrapolate, model == ANY_LAW)
+
+    def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
+        friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
+        return friction + wear
+
+    force = evaluate_checked(dissipation, quantities, values)
+    if chosen.law == COUPLED and not extrapolate:
+        g, alpha, xi, wear = (q.checked(v) for q, v in zip(quantities, values, strict=True))
+        require_known_load(chosen, (1.0, g, 1.0, xi, wear, alpha))
+    return force
+
+
+def _automatic_dissipation(
+    quantities: tuple[Quantity, ...],
+    values: tuple[Any, ...],
+    rtol: float | None,
+    extrapolate: bool,
+    any_law: bool,
+) -> FloatOrArray:
+    from surrogate.choosing.auto import AutomaticTerms
+    from surrogate.choosing.auto_law import LawfulTerms
+
+    checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
+    broadcast_shape(tuple(q.name for q in quantities), checked)
+    g, alpha, xi, relative_wear = checked
+    scene = (1.0, g, 1.0, xi, relative_wear, alpha)
+    automatic = (LawfulTerms if any_law else AutomaticTerms)(scene, rtol, of_dissipation=True)
+    friction, wear, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
+    automatic.finish(extrapolate)
+    return friction + wear  # type: ignore[no-any-return]
+
+
+@cache
+def _as_alpha(stiffening: Quantity) -> Quantity:
+    return replace(stiffening, name="alpha")
