@@ -247,8 +247,10 @@ def test_outside_the_range():
         assert np.isnan(force(bad, outside="nan"))
         mixed = force([2e-4, bad], outside="nan")
         assert (mixed[0], np.isnan(mixed[1])) == (force(2e-4), True)
-    with pytest.raises(InputError, match="outside must be"):
-        force(2e-4, outside="clip")
+    for bad in ("clip", None, np.array(["nan", "raise"]), 1):
+        for value in (2e-4, np.array([2e-4, 3e-4])):
+            with pytest.raises(InputError, match="outside must be"):
+                force(value, outside=bad)
 
 
 @pytest.mark.parametrize("varying", ONES, ids=str)
