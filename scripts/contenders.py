@@ -6,7 +6,7 @@ through values that cubic splines at each alpha give on a common g; SMT's krigin
 The last two are of ln A, ln B and ln(delta/R_w).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -37,12 +37,13 @@ EVERY = 3
 class Contender:
     """A surrogate of another library: its functions of g and alpha, and the size of its arrays.
 
-    `with_std` computes means and standard deviations, whatever of them it returns.
+    `functions` returns A, B and delta, or those of them that a third argument names. `with_std`
+    computes means and standard deviations, whatever of them it returns.
     """
 
     name: str
     module: str
-    functions: Callable[[Any, Any], list[Any]]
+    functions: Callable[..., list[Any]]
     with_std: Callable[[Any, Any], list[Any]] | None
     kilobytes: float
 
@@ -109,7 +110,7 @@ def scikit_learn(gp: ProcessModel, points: FitPoints) -> Contender:
     return Contender(
         "scikit-learn GPR",
         "sklearn.gaussian_process",
-        lambda g, alpha: model.contact(QUANTITIES, g, alpha),
+        lambda g, alpha, names=QUANTITIES: model.contact(names, g, alpha),
         lambda g, alpha: model.stds(QUANTITIES, g, alpha),
         size,
     )
@@ -146,9 +147,9 @@ def scipy_spline(points: FitPoints) -> Contender:
         splines[name] = RectBivariateSpline(np.log(alphas), log_g, np.array(values))
     size = sum(sum(a.nbytes for a in spline.tck) for spline in splines.values()) / 1e3
 
-    def functions(g: Any, alpha: Any) -> list[Any]:
+    def functions(g: Any, alpha: Any, names: Sequence[str] = QUANTITIES) -> list[Any]:
         at = np.log(alpha), np.log(g)
-        return [np.exp(spline.ev(*at)) for spline in splines.values()]
+        return [np.exp(splines[name].ev(*at)) for name in names]
 
     return Contender("RectBivariateSpline", "scipy.interpolate", functions, None, size)
 
@@ -167,9 +168,9 @@ def smt_kriging(points: FitPoints) -> Contender:
     def where(g: Any, alpha: Any) -> Any:
         return np.column_stack(np.broadcast_arrays(np.log(g), np.log(alpha)))
 
-    def functions(g: Any, alpha: Any) -> list[Any]:
+    def functions(g: Any, alpha: Any, names: Sequence[str] = QUANTITIES) -> list[Any]:
         x = where(g, alpha)
-        return [np.exp(model.predict_values(x)[:, 0]) for model in models.values()]
+        return [np.exp(models[name].predict_values(x)[:, 0]) for name in names]
 
     def stds(g: Any, alpha: Any) -> list[Any]:
         x = where(g, alpha)

@@ -103,7 +103,7 @@ def goals(found: Sequence[Measured]) -> list[tuple[str, float, float, bool]]:
     ours = by_name[GP_STD]
     size = max(set(ours.bulk) & set(theirs.bulk))
     aims = [
-        ("table, scattered points, ns a point and output", table.cost, 50.0, -1),
+        ("table, scattered points, ns a point and output", table.cost, 30.0, -1),
         ("table, one alpha, ns a point and output", table.one_alpha, 20.0, -1),
         ("table, one float, us", table.latency, 3.0, -1),
         ("table, cold start to the first value / import numpy", table.start, 1.3, -1),
@@ -115,7 +115,7 @@ def goals(found: Sequence[Measured]) -> list[tuple[str, float, float, bool]]:
         ),
     ]
     if NUMBA in by_name:
-        aims.insert(1, ("table with numba, scattered points, ns", by_name[NUMBA].cost, 12.0, -1))
+        aims.insert(1, ("table with numba, scattered points, ns", by_name[NUMBA].cost, 10.0, -1))
     return [(words, value, goal, sign * (value - goal) >= 0) for words, value, goal, sign in aims]
 
 

@@ -71,6 +71,9 @@ def test_the_script_writes_page_figure_and_costs(tmp_path):
     page = (tmp_path / "models.md").read_text(encoding="utf-8")
     for name in (*FORCE_MODELS, *FITTED_NAMES, "auto", "scikit-learn GPR", "finite elements"):
         assert f"| {name} |" in page
+    loop = (tmp_path / "prepare.md").read_text(encoding="utf-8")
+    for way in ("empty function", "prepared", "cutting_force, auto", "RectBivariateSpline"):
+        assert f"| {way} |" in loop
     content = json.loads((tmp_path / COSTS_FILE).read_text(encoding="utf-8"))
     assert content["schema"] == COSTS_SCHEMA
     assert set(content["models"]) == {*FORCE_MODELS, *FITTED_NAMES}

@@ -299,7 +299,7 @@ def load_campaign(path: str | os.PathLike[str] | None = None) -> Campaign:
     """
     import h5py
 
-    file = Path(file_name(path)) if path is not None else models_folder() / "campaign.h5"
+    file = Path(file_name(path)) if path is not None else Path(models_folder()) / "campaign.h5"
     require_checksum(file)
     try:
         with h5py.File(file, "r") as content:

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
 import io
 import os
+import struct
+import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
+from importlib import import_module
 from os import PathLike
-from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import shown
 from surrogate.errors import InputError
+
+if TYPE_CHECKING:
+    from pathlib import Path  # with hashlib and zipfile a good part of the time of a first force
 
 __all__ = [
     "check_outputs",
@@ -26,11 +30,12 @@ __all__ = [
     "model_file",
     "models_folder",
     "read_archive",
+    "sha256",
     "write_csv",
     "written_whole",
 ]
 
-_PACKAGE = Path(__file__).resolve().parent.parent
+_PACKAGE = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 
 
 def file_name(path: object) -> str:
@@ -53,6 +58,7 @@ def file_name(path: object) -> str:
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> file_name(Path("cuts.csv"))
     'cuts.csv'
     """
@@ -66,7 +72,7 @@ def file_name(path: object) -> str:
 
 
 @cache
-def models_folder() -> Path:
+def models_folder() -> str:
     """Return the folder of shipped data and models.
 
     A wheel carries it inside the package; a checkout, and an editable install of it, beside
@@ -74,7 +80,7 @@ def models_folder() -> Path:
 
     Returns
     -------
-    pathlib.Path
+    str
         The folder `models`.
 
     Raises
@@ -84,11 +90,12 @@ def models_folder() -> Path:
 
     Examples
     --------
-    >>> models_folder().name
+    >>> os.path.basename(models_folder())
     'models'
     """
-    for folder in (_PACKAGE / "models", _PACKAGE.parent / "models"):
-        if folder.is_dir():
+    for parent in (_PACKAGE, os.path.dirname(_PACKAGE)):
+        folder = os.path.join(parent, "models")
+        if os.path.isdir(folder):
             return folder
     raise InputError(
         f"the folder 'models' is neither in {_PACKAGE} nor beside it, "
@@ -119,7 +126,9 @@ def model_file(name: str) -> Path:
     >>> model_file("paam-wire-cutting.csv").name
     'paam-wire-cutting.csv'
     """
-    folder = models_folder()
+    from pathlib import Path
+
+    folder = Path(models_folder())
     shipped = {path.name: path for path in folder.iterdir() if path.is_file()}
     if name not in shipped:
         raise InputError(
@@ -171,10 +180,38 @@ def read_archive(content: bytes) -> dict[str, NDArray[Any]]:
     ValueError: no archive of arrays: ...
     """
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-            return dict(archive.items())
-    except Exception as error:  # numpy and zipfile raise a dozen kinds, tokenize's among them
+        return {
+            name.removesuffix(".npy"): np.lib.format.read_array(io.BytesIO(member))
+            for name, member in _members(content)
+        }
+    except Exception as error:  # numpy raises a dozen kinds, tokenize's among them
         raise ValueError(f"no archive of arrays: {error}") from None
+
+
+_ENTRY = struct.Struct("<10xH4xIIIHHH8xI")
+"""Of the directory of a zip file: method, checksum, sizes packed and whole, lengths, start."""
+
+
+def _members(content: bytes) -> Iterator[tuple[str, bytes]]:
+    """Yield the members of a zip file by its directory.
+
+    `zipfile` would do the same, and takes as long to be imported as everything else of the file.
+    """
+    end = content.rindex(b"PK\5\6")
+    members, _, at = struct.unpack_from("<HII", content, end + 10)
+    for _ in range(members):
+        method, checksum, size, whole, *lengths, start = _ENTRY.unpack_from(content, at)
+        at += _ENTRY.size
+        name = content[at : at + lengths[0]].decode()
+        at += sum(lengths)
+        begin = start + 30 + sum(struct.unpack_from("<HH", content, start + 26))
+        if method not in (0, 8):
+            raise ValueError(f"{name} is compressed by an unknown method, {method}")
+        member = content[begin : begin + size]
+        member = zlib.decompress(member, -zlib.MAX_WBITS) if method else member
+        if len(member) != whole or zlib.crc32(member) != checksum:
+            raise ValueError(f"{name} is damaged")
+        yield name, member
 
 
 def column_name(quantity: str, unit: str) -> str:
@@ -216,7 +253,8 @@ def written_whole(file: str | PathLike[str]) -> Iterator[str]:
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     with written_whole(f"{folder}/x.csv") as name:
-    ...         _ = Path(name).write_text("a,b")
+    ...         with open(name, "w") as file:
+    ...             _ = file.write("a,b")
     ...     print(*os.listdir(folder))
     x.csv
     """
@@ -320,8 +358,8 @@ def write_csv(
     lines += _rows(arrays)
     path = file_name(file)
     content = ("\n".join(lines) + "\n").encode()
-    with written_whole(path) as temporary:
-        Path(temporary).write_bytes(content)
+    with written_whole(path) as temporary, open(temporary, "wb") as writer:
+        writer.write(content)
 
 
 def _rows(arrays: Sequence[Any]) -> list[str]:
@@ -338,6 +376,27 @@ def _cell(value: Any) -> str:
     return text
 
 
+def sha256(content: bytes) -> str:
+    """Return the SHA-256 of a content in hexadecimal, by Python's own code where it has one.
+
+    For files of some hundred kilobytes it is done before OpenSSL, which hashlib takes, is loaded.
+
+    Examples
+    --------
+    >>> sha256(b"")[:16]
+    'e3b0c44298fc1c14'
+    """
+    return str(_hashing().sha256(content).hexdigest())
+
+
+@cache
+def _hashing() -> Any:
+    for module in ("_sha2", "_sha256"):  # of Python 3.12 on, and of older ones
+        with suppress(ImportError):
+            return import_module(module)
+    return import_module("hashlib")
+
+
 def checksum_line(name: str, content: bytes) -> bytes:
     """Return the line that goes beside a file: its SHA-256, as ``sha256sum --check`` reads it.
 
@@ -346,4 +405,4 @@ def checksum_line(name: str, content: bytes) -> bytes:
     >>> checksum_line("surrogates.npz", b"")[-16:]
     b' surrogates.npz\\n'
     """
-    return f"{hashlib.sha256(content).hexdigest()}  {name}\n".encode()
+    return f"{sha256(content)}  {name}\n".encode()

@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -142,6 +141,8 @@ def html_table(title: str, rows: Iterable[tuple[str, str, str]]) -> str:
     >>> html_table("Scene", [("toughness", "1.6", "J/m^2")])[:48]
     '<table><caption>Scene</caption><tr><td>toughness'
     """
+    from html import escape  # which notebooks need alone
+
     lines = "".join(
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
     )

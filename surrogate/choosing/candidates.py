@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache, cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -127,7 +126,7 @@ def candidates(fitted: Fitted | None = None, law: str = PROJECTED) -> Candidates
 
 
 @cache
-def _candidates(fitted: Fitted, law: str, folder_of_costs: Path) -> Candidates:
+def _candidates(fitted: Fitted, law: str, folder_of_costs: str) -> Candidates:
     return Candidates(fitted, law)
 
 

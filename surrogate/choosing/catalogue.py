@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any, TypeVar
 
 from surrogate.basics.files import models_folder
@@ -70,12 +70,13 @@ def by_cost(models: Iterable[Model]) -> list[Model]:
 
 
 @cache
-def _read(folder: Path) -> dict[str, dict[str, float]]:
-    file = folder / COSTS_FILE
-    if not file.is_file():
+def _read(folder: str) -> dict[str, dict[str, float]]:
+    file = os.path.join(folder, COSTS_FILE)
+    if not os.path.isfile(file):
         return {}
     try:
-        content: Any = json.loads(file.read_text(encoding="utf-8"))
+        with open(file, encoding="utf-8") as reader:
+            content: Any = json.load(reader)
         if content["schema"] != COSTS_SCHEMA:
             raise ValueError(f"the schema is {content['schema']!r}")
         return {
@@ -162,7 +163,7 @@ def models() -> tuple[ModelInfo, ...]:
     try:
         fitted = shipped()
     except InputError:
-        if (models_folder() / "surrogates.npz").exists():
+        if os.path.exists(os.path.join(models_folder(), "surrogates.npz")):
             raise
         fitted = None
     costs = read_costs()

@@ -127,7 +127,7 @@ def _shipped() -> list[Path]:
     """Return the shipped files of data, without what only describes them."""
     return sorted(
         path
-        for path in models_folder().iterdir()
+        for path in Path(models_folder()).iterdir()
         if path.is_file() and path.suffix not in (".md", ".sha256")
     )
 

@@ -6,18 +6,15 @@ which some numbers were changed is told from one that was fitted, whatever its c
 
 from __future__ import annotations
 
-import hashlib
 import io
 import json
-import zipfile
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.files import file_name, read_archive
+from surrogate.basics.files import file_name, read_archive, sha256
 from surrogate.errors import InputError
 
 __all__ = ["FILE", "REMEDY", "SCHEMA", "content_of", "read_fitted"]
@@ -44,6 +41,8 @@ def content_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> bytes:
     told = {"schema": SCHEMA, **about, _DIGESTS: digests}
     text = json.dumps(told, sort_keys=True, allow_nan=False)
     columns = {_ABOUT: np.frombuffer(text.encode(), dtype=np.uint8), **arrays}
+    import zipfile  # which whoever only reads need not load
+
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, values in columns.items():
@@ -57,7 +56,7 @@ def content_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> bytes:
 def _digest(values: NDArray[Any]) -> str:
     """Return the digest of an array: of its type, its shape and its numbers."""
     about = f"{values.dtype.str} {values.shape} ".encode()
-    return hashlib.sha256(about + np.ascontiguousarray(values).tobytes()).hexdigest()[:16]
+    return sha256(about + np.ascontiguousarray(values).tobytes())[:16]
 
 
 def read_fitted(path: object) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
@@ -80,7 +79,7 @@ def read_fitted(path: object) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     InputError
         If a file is missing, damaged, of a newer schema, or holds what is no number.
     """
-    file = Path(file_name(path))
+    file = file_name(path)
     content = _verified(file)
     about, arrays = _decoded(file, content)
     for name, values in arrays.items():
@@ -95,7 +94,7 @@ def read_fitted(path: object) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
 
 
 def _require_digests(
-    file: Path, about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]
+    file: str, about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]
 ) -> None:
     found = {name: _digest(values) for name, values in arrays.items()}
     told = about.get(_DIGESTS)
@@ -107,10 +106,9 @@ def _require_digests(
         )
 
 
-def _verified(file: Path) -> bytes:
+def _verified(file: str) -> bytes:
     try:
-        content = file.read_bytes()
-        expected = file.with_name(file.name + ".sha256").read_bytes().split()[:1]
+        content, expected = _content(file), _content(f"{file}.sha256").split()[:1]
     except OSError as error:
         raise InputError(
             f"the fitted models must be read, but {error.filename} cannot be "
@@ -118,7 +116,7 @@ def _verified(file: Path) -> bytes:
         ) from None
     except ValueError as error:
         raise InputError(f"{file} must name a file, but it cannot ({error}); {REMEDY}.") from None
-    if [hashlib.sha256(content).hexdigest().encode()] != expected:
+    if [sha256(content).encode()] != expected:
         raise InputError(
             f"{file} must match the checksum beside it, but it does not: it is damaged or "
             f"incomplete; {REMEDY}."
@@ -126,7 +124,12 @@ def _verified(file: Path) -> bytes:
     return content
 
 
-def _decoded(file: Path, content: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+def _content(file: str) -> bytes:
+    with open(file, "rb") as reader:
+        return reader.read()
+
+
+def _decoded(file: str, content: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     try:
         arrays = read_archive(content)
         about = json.loads(arrays.pop(_ABOUT).tobytes(), parse_constant=_no_number)
@@ -143,7 +146,7 @@ def _no_number(name: str) -> float:
     raise ValueError(f"{name} is no number")
 
 
-def _require_schema(file: Path, schema: str) -> None:
+def _require_schema(file: str, schema: str) -> None:
     version = schema.removeprefix(_FAMILY)
     if schema.startswith(_FAMILY) and version in _READ:
         return

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -268,13 +267,13 @@ def shipped() -> Fitted:
         If there are none, or their file is damaged.
     """
     named = _in_use or os.environ.get(VARIABLE)
-    return read(str(_file_at(named))) if named else _in(models_folder())
+    return read(_file_at(named)) if named else _in(models_folder())
 
 
-def folder_in_use() -> Path:
+def folder_in_use() -> str:
     """Return the folder of the file that `shipped` reads."""
     named = _in_use or os.environ.get(VARIABLE)
-    return _file_at(named).parent if named else models_folder()
+    return os.path.dirname(_file_at(named)) if named else models_folder()
 
 
 _in_use: str | None = None
@@ -319,18 +318,18 @@ def in_use(path: object) -> Iterator[Fitted]:
         _in_use = before
 
 
-def _file_at(path: str) -> Path:
+def _file_at(path: str) -> str:
     """Return the file of models at a path, which may be its folder."""
-    return Path(path) / FILE if os.path.isdir(path) else Path(path)
+    return os.path.join(path, FILE) if os.path.isdir(path) else path
 
 
 @cache
-def _in(folder: Path) -> Fitted:
-    file = folder / FILE
-    if not file.is_file():
+def _in(folder: str) -> Fitted:
+    file = os.path.join(folder, FILE)
+    if not os.path.isfile(file):
         raise InputError(
             f"a fitted model must have the file {FILE}, but the fitted models are not shipped with "
             "this version; make the file with regen-surrogate, or choose a closed form such as "
             "model='eq13'."
         )
-    return read(str(file))
+    return read(file)

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +31,14 @@ Array = NDArray[np.float64]
 
 _KEPT = 24  # collapsed tables, some kilobytes each
 
-_HERMITE = np.array(
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]]
-)
+
+class Slopes(NamedTuple):
+    """Values at the nodes of one side of the touch, with derivatives by the counts of nodes."""
+
+    values: Array
+    by_g: Array
+    by_alpha: Array
+    mixed: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,10 +56,15 @@ class CellTable:
 
     grid: Grid
     nodes: Mapping[str, tuple[Array, Array]]
-    _cells: dict[str, Array] = field(default_factory=dict, repr=False)
-    _quarters: dict[str, list[Array]] = field(default_factory=dict, repr=False)
-    _rows: dict[str, dict[int, tuple[float, ...]]] = field(default_factory=dict, repr=False)
-    _collapsed: dict[tuple[str, int, float], Array] = field(default_factory=dict, repr=False)
+    _sides: dict[str, list[Slopes]] = field(default_factory=dict, init=False, repr=False)
+    _cells: dict[str, Array] = field(default_factory=dict, init=False, repr=False)
+    _quarters: dict[str, list[Array]] = field(default_factory=dict, init=False, repr=False)
+    _rows: dict[str, dict[int, tuple[float, ...]]] = field(
+        default_factory=dict, init=False, repr=False
+    )
+    _collapsed: dict[tuple[str, int, float], Array] = field(
+        default_factory=dict, init=False, repr=False
+    )
 
     def at(self, names: Sequence[str], log_g: Any, log_alpha: Any) -> tuple[Any, list[Any]]:
         """Return x = ln(g/g_touch) and functions at points: floats, or arrays and one alpha."""
@@ -86,9 +96,14 @@ class CellTable:
     def cells(self, name: str) -> Array:
         """Return the sixteen coefficients of every cell of a function, one row each."""
         if name not in self._cells:
-            sides = [_coefficients(side) for side in self.nodes[name]]
-            self._cells[name] = np.concatenate(sides)
+            self._cells[name] = np.concatenate([_coefficients(side) for side in self.sides(name)])
         return self._cells[name]
+
+    def sides(self, name: str) -> list[Slopes]:
+        """Return a function at the nodes on either side of the touch, with its derivatives."""
+        if name not in self._sides:
+            self._sides[name] = [_with_slopes(side) for side in self.nodes[name]]
+        return self._sides[name]
 
     def _by_power(self, name: str) -> list[Array]:
         """Return the coefficients of every cell by their power along g, in rows of four."""
@@ -98,10 +113,18 @@ class CellTable:
         return self._quarters[name]
 
     def _row(self, name: str, cell: int) -> tuple[float, ...]:
-        """Return the coefficients of one cell as numbers, which are kept."""
-        return self._rows.setdefault(name, {}).setdefault(
-            cell, tuple(self.cells(name)[cell].tolist())
-        )
+        """Return the coefficients of one cell as numbers, which are kept.
+
+        They are those of `cells`, without computing all of them for whoever needs one.
+        """
+        rows = self._rows.setdefault(name, {})
+        if cell not in rows:
+            i, j = divmod(cell, self.grid.stiffening)
+            past = i >= self.grid.short
+            i -= self.grid.short * past
+            four = [each[i : i + 2, j : j + 2].tolist() for each in self.sides(name)[past]]
+            rows[cell] = _polynomial(four)
+        return rows[cell]
 
     @cached_property
     def _numbers(self) -> tuple[Any, ...]:
@@ -221,19 +244,54 @@ def cubics(rows: Array, index: Any, x: Any, result: Array, taken: Array) -> None
         result += taken[..., power]
 
 
-def _coefficients(values: Array) -> Array:
+def _with_slopes(values: Array) -> Slopes:
+    """Return values at nodes with the slopes of cubic splines."""
+    by_g, by_alpha = _slopes(values.shape[0]) @ values, _slopes(values.shape[1])
+    return Slopes(values, by_g, values @ by_alpha.T, by_g @ by_alpha.T)
+
+
+def _coefficients(side: Slopes) -> Array:
     """Return the sixteen coefficients of powers along g and along alpha, one row for each cell."""
-    by_g, by_alpha = _slopes(values.shape[0]), _slopes(values.shape[1])
-    along_g, along_alpha = by_g @ values, values @ by_alpha.T
-    mixed = along_g @ by_alpha.T
-    ends = np.empty((values.shape[0] - 1, values.shape[1] - 1, 4, 4))
-    for i, row in enumerate(((values, along_alpha), (along_g, mixed))):
-        for j, nodes in enumerate(row):
-            for end in (0, 1):
-                for other in (0, 1):
-                    rows, columns = ends.shape[0] + end, ends.shape[1] + other
-                    ends[:, :, 2 * i + end, 2 * j + other] = nodes[end:rows, other:columns]
-    return np.asarray(ends.reshape(-1, 16) @ np.kron(_HERMITE, _HERMITE).T)
+    rows, columns = side.values.shape
+    corners = [
+        [[nodes[i : rows - 1 + i, j : columns - 1 + j] for j in (0, 1)] for i in (0, 1)]
+        for nodes in side
+    ]
+    return np.stack(_polynomial(corners), axis=-1).reshape(-1, 16)
+
+
+def _polynomial(corners: Any) -> tuple[Any, ...]:
+    """Return the coefficients of cells from value, slopes and mixed slope at their corners.
+
+    Parameters
+    ----------
+    corners : sequence
+        In the order of `Slopes`, each first by the end along g, then by that along alpha: floats,
+        or arrays over cells, with the same digits.
+
+    Returns
+    -------
+    tuple
+        Of powers along g (slow) and along alpha (quick).
+    """
+    value, by_g, by_alpha, mixed = corners
+    ends = [
+        [_cubic(*plain[end], *slope[end]) for end in (0, 1)]
+        for plain, slope in ((value, by_alpha), (by_g, mixed))
+    ]
+    powers = [_cubic(ends[0][0][m], ends[0][1][m], ends[1][0][m], ends[1][1][m]) for m in range(4)]
+    return tuple(powers[m][k] for k in range(4) for m in range(4))
+
+
+def _cubic(first: Any, last: Any, slope: Any, other: Any) -> tuple[Any, ...]:
+    """Return the coefficients of the cubic of Hermite, of values and slopes at 0 and 1."""
+    rise = last - first
+    return (
+        first,
+        slope,
+        3.0 * rise - 2.0 * slope - other,
+        slope + other - 2.0 * rise,
+    )
 
 
 @cache

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -98,12 +97,12 @@ def amplification() -> Amplification:
 
 
 @cache
-def _in(folder: Path) -> Amplification:
-    file = folder / AMPLIFICATION_FILE
+def _in(folder: str) -> Amplification:
+    file = os.path.join(folder, AMPLIFICATION_FILE)
     if not os.path.isfile(file):
         raise InputError(
             f"the law 'coupled' must have the file {AMPLIFICATION_FILE} beside {FILE}, but "
             f"{folder} has none; choose the law 'slip', or make the file with "
             "python -m fe_training.coupled --fit."
         )
-    return amplification_of(*read_fitted(str(file)))
+    return amplification_of(*read_fitted(file))

@@ -261,7 +261,7 @@ def force_of(
 
 
 def _is_nan(outside: object) -> bool:
-    if outside in ("raise", "nan"):
+    if isinstance(outside, str) and outside in ("raise", "nan"):
         return outside == "nan"
     raise InputError(
         f"outside must be 'raise' or 'nan', but is {shown(outside)}; give 'nan' for no number "

@@ -15,7 +15,7 @@ from surrogate.basics.checks import (
     flag,
     one_number,
 )
-from surrogate.basics.elementwise import apply, product, ratio
+from surrogate.basics.elementwise import AT_ONCE, apply, product, ratio
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model
 from surrogate.choosing.laws import PROJECTED, is_chosen, of_law
@@ -196,10 +196,12 @@ def regime_of(
         three = _terms(mu, gamma, radius, xi, wear) if split else parts
         total = three[0] + three[1] + three[2]
         # At most one comparison holds; 0/0 and inf/inf are nan, which makes none hold.
-        dominant = sum(i * (ratio(term, total) >= share) for i, term in enumerate(three, start=1))
+        held = (ratio(term, total) >= share for term in three)
+        dominant = sum(_times(number, holds) for number, holds in enumerate(held, start=1))
         return dominant, gamma > touch * (mu * radius)
 
-    dominant, touching = apply(codes, (*scene.values(), touch, *terms), (np.int8, bool))
+    values = (*scene.values(), touch, *terms)
+    dominant, touching = apply(codes, values, (np.int8, bool), AT_ONCE)
     names = DOMINANCES if split else PARTS
     return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share)
 
@@ -251,7 +253,14 @@ def _parts(force: CuttingForce) -> tuple[FloatOrArray, FloatOrArray, FloatOrArra
     return force.cleavage, force.friction, force.wear
 
 
+def _times(number: int, holds: Any) -> Any:
+    """Return the number where something holds, else 0, in single bytes if there are many."""
+    if isinstance(holds, np.ndarray):
+        return holds.view(np.int8) * np.int8(number)
+    return number * holds
+
+
 def _labels(names: tuple[str, ...], codes: Any) -> Any:
     if isinstance(codes, np.ndarray):
-        return np.array(names)[codes.astype(np.intp)]
+        return np.array(names).take(codes, mode="clip")  # which takes less time than to index
     return names[codes]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from surrogate.basics.checks import FloatOrArray, Quantity, broadcast_shape
+from surrogate.basics.checks import FloatOrArray, Quantity, broadcast_shape, shown
 from surrogate.basics.elementwise import AT_ONCE, apply
 from surrogate.basics.records import number
 from surrogate.contact.fitted import PROJECTED
@@ -136,17 +136,17 @@ class ForceFunction:
             value = values[0]
             low, high, force, straight = self._one
             if type(value) is float:
-                if out is None and low <= value <= high and outside in OUTSIDE:
+                if out is None and low <= value <= high and _is_known(outside):
                     return force(value)
-            elif straight is not None and _is_inside(value, low, high) and outside in OUTSIDE:
+            elif straight is not None and _is_inside(value, low, high) and _is_known(outside):
                 return _filled(straight.of, value, out)
         return self._of_anything(values, named, outside, out)
 
     def _of_anything(self, values: Any, named: dict[str, Any], outside: str, out: Any) -> Any:
         arguments = self._arguments(values, named)
-        if outside not in OUTSIDE:
+        if not _is_known(outside):
             raise InputError(
-                f"outside must be 'raise' or 'nan', but is {outside!r}; give one of them."
+                f"outside must be 'raise' or 'nan', but is {shown(outside)}; give one of them."
             )
         if any(map(is_foreign, arguments)):
             if out is not None:
@@ -297,6 +297,10 @@ class ForceFunction:
         known = self.relative_error == self.relative_error
         error = f"up to {100.0 * self.relative_error:.2g} %" if known else "unknown"
         return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; error {error}"
+
+
+def _is_known(outside: object) -> bool:
+    return outside is RAISE or (isinstance(outside, str) and outside in OUTSIDE)
 
 
 def _is_single(values: list[Any]) -> bool:

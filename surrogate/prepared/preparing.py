@@ -10,14 +10,14 @@ from surrogate.basics.checks import RTOL, items, mapping, one_number
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
 from surrogate.choosing.choice import rounded_up
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP, of_law
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
 from surrogate.contact.domain import Domain
 from surrogate.contact.table import TableModel
 from surrogate.errors import AccuracyError, DomainError, InputError
 from surrogate.prepared.function import ForceFunction
 from surrogate.prepared.plan import ALPHA, Plan
-from surrogate.prepared.proof import force_error, g_range, lowest_of_highest, lowest_touch
+from surrogate.prepared.proof import force_error, g_range, lowest_of_highest
 from surrogate.scene import NAMES, QUANTITIES, Scene
 
 __all__ = ["data_of", "prepare"]
@@ -83,8 +83,8 @@ def prepare(
     -----
     Range of validity: the ranges. The bound of error holds all over them: it is made of the
     measured bounds of all cells of (g, alpha) that they touch, not of samples. Under the law "slip"
-    there is none, and it is nan, where the ranges reach the g at which the crack's tip touches the
-    wire: the slip there depends on how sharp the tip is.
+    there is none, and it is nan, where the ranges come near the g at which the crack's tip touches
+    the wire, and beyond it at alpha up to 3: the slip there depends on how sharp the tip is.
 
     References
     ----------
@@ -101,6 +101,11 @@ def prepare(
     """
     box = _box(fixed, varying, ranges)
     chosen = of_law(model, law)
+    if law == COUPLED:
+        raise InputError(
+            f"law must be one of {PROJECTED}, {SLIP} to prepare a force, but is {law!r}; choose "
+            f"one, or call cutting_force with law={law!r}."
+        )
     tolerance = None if rtol is None else one_number(RTOL, rtol)
     terms = [term for term in TERMS if box[_STRENGTHS[term]][1] > 0.0]
     if is_auto(chosen):
@@ -221,15 +226,17 @@ def _named(model: object, box: Ranges, terms: list[str]) -> _Parts:
 
 def _error_of_table(table: TableModel, box: Ranges, terms: list[str]) -> float:
     """Return the bound of the force's error; nan where nobody knows it."""
-    known = candidates()
     if not terms:
         return 0.0
-    if getattr(known.fitted.models[OUTSIDE], "table", None) is not table.table:
+    fitted = candidates().fitted
+    if getattr(fitted.models[OUTSIDE], "table", None) is not table.table:
         return math.nan  # the bounds are of another table
-    if table.law != PROJECTED and g_range(box)[1] >= lowest_touch(table.limits, box[ALPHA]):
+    if table.law != PROJECTED and fitted.slip_bounds is None:
         return math.nan
-    functions = dict(zip(TERMS, table.rubbing, strict=True))
-    return force_error(known, box, dict.fromkeys(terms, OUTSIDE), functions)
+    known = candidates(law=table.law)
+    functions = dict(zip(TERMS, known.terms, strict=True))
+    error = force_error(known, box, dict.fromkeys(terms, OUTSIDE), functions)
+    return error if error < math.inf else math.nan
 
 
 def _require(error: float, rtol: float | None, who: str, where: str = "") -> None:

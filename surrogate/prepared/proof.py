@@ -7,21 +7,24 @@ A term of the force is the true one times exp(e) at most, with |e| up to its bou
 
 which is monotonic in each t as a quotient of linear functions. Eq. (13) with its own bounds says
 between which numbers each t is in the box, so that the largest error is at one of the corners.
+Where the cells are those of g/g_touch, as for A* and B*, the box of g touches those that it has at
+any of its alphas.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from itertools import product
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise, product
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from surrogate.choosing.candidates import TERMS, Candidates
+from surrogate.contact.coordinates import log_touch
 from surrogate.contact.domain import ROUNDING, Domain
 
-__all__ = ["Ranges", "force_error", "g_range", "lowest_of_highest", "lowest_touch"]
+__all__ = ["Ranges", "force_error", "g_range", "lowest_of_highest"]
 
 Ranges: TypeAlias = "Mapping[str, tuple[float, float]]"
 
@@ -45,12 +48,15 @@ def lowest_of_highest(limits: Domain, alpha: tuple[float, float]) -> float:
     return min(float(limits.highest_g(a)) for a in (*alpha, *inner)) * ROUNDING
 
 
-def lowest_touch(limits: Domain, alpha: tuple[float, float]) -> float:
-    """Return the lowest g at which the crack's tip touches the wire at any alpha of a range."""
+def _touch_range(coefficients: Sequence[float], alpha: tuple[float, float]) -> tuple[float, float]:
+    """Return the lowest and the highest g_touch of a range of alpha; 1 without coefficients."""
+    if not coefficients:
+        return 1.0, 1.0
     low, high = (float(np.log(a)) for a in alpha)
-    roots: Any = np.polynomial.Polynomial(limits.touch).deriv().roots()
+    roots: Any = np.polynomial.Polynomial(coefficients).deriv().roots()
     level = [row.real for row in roots if abs(row.imag) < 1e-9 and low < row.real < high]
-    return math.exp(min(float(limits.log_touch(row)) for row in (low, high, *level)))
+    logs = [float(log_touch(coefficients, row)) for row in (low, high, *level)]
+    return math.exp(min(logs)), math.exp(max(logs))
 
 
 def force_error(
@@ -86,18 +92,29 @@ def _cells(
     known: Candidates, g: tuple[float, float], alpha: tuple[float, float]
 ) -> Iterator[tuple[int, tuple[float, float], tuple[float, float]]]:
     """Yield the cells that a box touches, each with the part of the box in it."""
-    bounds = known.bounds
-    if not (bounds.g[0] <= g[0] and g[1] <= bounds.g[-1]) or not (
-        bounds.alpha[0] <= alpha[0] and alpha[1] <= bounds.alpha[-1]
-    ):
+    bounds, columns = known.bounds, len(known.bounds.alpha) - 1
+    if not (bounds.alpha[0] <= alpha[0] and alpha[1] <= bounds.alpha[-1]):
         yield bounds.cells, g, alpha
         return
-    columns = len(bounds.alpha) - 1
-    for row, column in product(range(len(bounds.g) - 1), range(columns)):
-        in_g = max(g[0], bounds.g[row]), min(g[1], bounds.g[row + 1])
-        in_alpha = max(alpha[0], bounds.alpha[column]), min(alpha[1], bounds.alpha[column + 1])
-        if in_g[0] <= in_g[1] and in_alpha[0] <= in_alpha[1]:
+    for column, in_alpha in _parts(bounds.alpha, alpha):
+        low, high = _touch_range(bounds.touch, in_alpha)
+        off = ROUNDING if bounds.touch else 1.0
+        ends = g[0] / (high * off), g[1] / low * off
+        if not (bounds.g[0] <= ends[0] and ends[1] <= bounds.g[-1]):
+            yield bounds.cells, g, in_alpha
+        for row, part in _parts(bounds.g, ends):
+            in_g = max(g[0], part[0] * low), min(g[1], part[1] * high)
             yield row * columns + column, in_g, in_alpha
+
+
+def _parts(
+    edges: Sequence[float], ends: tuple[float, float]
+) -> Iterator[tuple[int, tuple[float, float]]]:
+    """Yield the intervals between edges that a range touches, with its part; an edge is above."""
+    last = len(edges) - 2
+    for number, (low, high) in enumerate(pairwise(edges)):
+        if low <= ends[1] and (ends[0] < high or number == last):
+            yield number, (max(low, ends[0]), min(high, ends[1]))
 
 
 def _in_cell(

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -31,7 +32,9 @@ def test_the_version_names_every_shipped_file_with_its_content():
     lines = version_text().splitlines()
     assert lines[0] == f"wirecut {__version__}"
     names = {line.split()[0] for line in lines[2:]}
-    shipped = {p.name for p in models_folder().iterdir() if p.suffix not in (".md", ".sha256")}
+    shipped = {
+        p.name for p in Path(models_folder()).iterdir() if p.suffix not in (".md", ".sha256")
+    }
     assert names == shipped
     material = next(line for line in lines if "paam-material.json" in line)
     assert "wirecut-material-1" in material

@@ -139,7 +139,7 @@ def test_the_error_under_the_law_of_slip_is_known_short_of_the_touch():
 def test_a_table_of_ones_own_is_taken_and_its_error_unknown():
     table = candidates().fitted.models["table"]
     nodes = {n: tuple(2.0 * side for side in sides) for n, sides in table.table.nodes.items()}
-    twice = replace(table, table=replace(table.table, nodes=nodes, _cells={}))
+    twice = replace(table, table=replace(table.table, nodes=nodes))
     force = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model=twice)
     usual = prepare(GEL, ranges={"wire_radius": (1e-4, 1e-3)}, model="table")
     assert force(3e-4) - 1.6 == pytest.approx(2.0 * (usual(3e-4) - 1.6), rel=1e-13)
@@ -247,8 +247,10 @@ def test_outside_the_range():
         assert np.isnan(force(bad, outside="nan"))
         mixed = force([2e-4, bad], outside="nan")
         assert (mixed[0], np.isnan(mixed[1])) == (force(2e-4), True)
-    with pytest.raises(InputError, match="outside must be"):
-        force(2e-4, outside="clip")
+    for bad in ("clip", None, np.array(["nan", "raise"]), 1):
+        for value in (2e-4, np.array([2e-4, 3e-4])):
+            with pytest.raises(InputError, match="outside must be"):
+                force(value, outside=bad)
 
 
 @pytest.mark.parametrize("varying", ONES, ids=str)
@@ -348,6 +350,7 @@ def test_arguments_are_given_once():
         ({"fixed": Scene([685.0], 1.6, 1e-4)}, InputError, "must be one number"),
         ({"model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"law": "greed"}, InputError, "law must be one of projected, slip"),
+        ({"law": "coupled"}, InputError, "call cutting_force with law='coupled'"),
         ({"law": "slip", "model": "eq13"}, InputError, "must have a model fitted"),
         ({"law": "slip", "model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"model": "eq9"}, InputError, "neither the table nor a closed form"),

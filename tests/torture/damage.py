@@ -82,7 +82,7 @@ def kinds(folder):
     """
     sound = {
         path.name: (path, *_reader(path))
-        for path in sorted(models_folder().iterdir())
+        for path in sorted(Path(models_folder()).iterdir())
         if _reader(path)
     }
     row = Path(folder, "made-up.row")

@@ -44,6 +44,7 @@ BASE = {
     "rtol": 0.05,
     "extrapolate": False,
     "law": "projected",
+    "outside": "raise",
     "std": {"toughness": 0.2, "wear_strength": 500.0},
     "correlation": {("toughness", "wear_strength"): -0.5},
     "x": "wire_radius",
