@@ -127,7 +127,8 @@ def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
     if model.law != COUPLED:
         return
     shape = np.broadcast_shapes(*map(np.shape, values))
-    outside = np.broadcast_to(~np.asarray(model.in_domain(*values)), shape)
+    loaded = np.not_equal(values[3], 0.0) | np.not_equal(values[4], 0.0)
+    outside = np.broadcast_to(~np.asarray(model.in_domain(*values)) & loaded, shape)
     if not outside.any():
         return
     first = int(np.argmax(outside.ravel()))

@@ -51,6 +51,8 @@ def test_without_friction_and_wear_every_law_is_the_toughness(coupled):
         force = cutting_force(bare, law=law)
         assert force.total.tolist() == [1.0, 1.0, 1.0]
         assert np.all(force.relative_error == 0.0)
+        far = replace(bare, wire_radius=1e-9)  # where no model reaches
+        assert cutting_force(far, law=law).total == 1.0
 
 
 def test_one_number_and_many_agree(coupled):
