@@ -58,7 +58,7 @@ def add_explore_options(command: argparse.ArgumentParser) -> None:
     ):
         add(f"--{name}", type=quantity(dimension), metavar=metavar, help=words)
     add_friction_and_stiffening(command, friction=None, stiffening=None)
-    add_law_option(command, coupled=False)
+    add_law_option(command)
 
 
 def run_explore(options: argparse.Namespace) -> int:

@@ -6,8 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.choosing.candidates import OUTSIDE, Candidates
+from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
+from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
+from surrogate.contact.bounds import Bounds
 from surrogate.contact.fitted import TERMS_OF_LAW
+from surrogate.contact.shipped import folder_in_use
+from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification
 from surrogate.cutting.regimes import DOMINANT_SHARE, PARTS
 from surrogate.reading import plausibility
 from surrogate.reading.measurements import Measurements
@@ -36,9 +40,13 @@ _SHOWN: tuple[tuple[str, str, str, str, float, Plausible | None], ...] = (
 
 
 def functions_of(known: Candidates) -> tuple[str, ...]:
-    """Return the functions of the table that the laws of dissipation follow."""
-    there = known.fitted.table.nodes
-    return tuple(name for terms in TERMS_OF_LAW.values() for name in terms if name in there)
+    """Return the functions of the table whose errors are known, which the laws follow."""
+    return tuple(name for law in _laws_of(known) for name in TERMS_OF_LAW[law])
+
+
+def _laws_of(known: Candidates) -> tuple[str, ...]:
+    """Return the laws with functions of their own that the models have, with their errors."""
+    return (PROJECTED,) if known.fitted.slip_bounds is None else (PROJECTED, SLIP)
 
 
 def page_numbers(
@@ -59,18 +67,16 @@ def page_numbers(
     diameters : bool
         Whether it shows diameters of wires instead of radii.
     """
-    limits, bounds = known.limits, known.bounds
+    limits = known.limits
     return {
+        **_of_coupled(known),
         "version": __version__,
         "data_date": data_date(known),
         "domain": {"g": limits.g, "alpha": limits.alpha, "highest": limits.highest},
         "bounds": {
-            "g": list(bounds.g),
-            "alpha": list(bounds.alpha),
-            "errors": {
-                name: [float(x) for x in bounds.errors[OUTSIDE][name].flat]
-                for name in functions_of(known)
-            },
+            name: _bounds(candidates(known.fitted, law).bounds, name)
+            for law in _laws_of(known)
+            for name in TERMS_OF_LAW[law]
         },
         "threshold": DOMINANT_SHARE,
         "transition": PARTS[0],
@@ -82,6 +88,37 @@ def page_numbers(
             "diameters": diameters,
             "cuts": _cuts(cuts),
         },
+    }
+
+
+def _bounds(bounds: Bounds, name: str) -> dict[str, Any]:
+    """Return the bounds of a function of the table, None where they are infinite."""
+    errors = bounds.errors[OUTSIDE][name]
+    return {
+        "g": bounds.g,
+        "alpha": bounds.alpha,
+        "touch": bounds.touch,
+        "errors": [[float(x) if np.isfinite(x) else None for x in row] for row in errors],
+    }
+
+
+def _of_coupled(known: Candidates) -> dict[str, Any]:
+    """Return kappa of the models in use; nothing where they have none."""
+    if SLIP not in _laws_of(known) or not (folder_in_use() / AMPLIFICATION_FILE).is_file():
+        return {}
+    kappa = amplification()
+    reach, places = np.unique(kappa.reach, return_inverse=True)  # few loads were tried
+    terms = zip(kappa.polynomial.powers, kappa.polynomial.coefficients, strict=True)
+    return {
+        COUPLED: {
+            "touch": kappa.touch,
+            "terms": [[*map(int, powers), float(c)] for powers, c in terms],
+            "axes": [axis.tolist() for axis in kappa.axes],
+            "reach": {"values": reach.tolist(), "places": places.ravel().tolist()},
+            "largest": kappa.largest,
+            "edges": kappa.edges,
+            "errors": kappa.errors.tolist(),
+        }
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from surrogate.basics.checks import flag
 from surrogate.basics.figures import COLOURS, FILLS
 from surrogate.basics.files import file_name, written_whole
 from surrogate.choosing.candidates import OUTSIDE, candidates
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
 from surrogate.cutting.regimes import PARTS
 from surrogate.errors import InputError
 from surrogate.explorer.numbers import GEL, data_date, functions_of, page_numbers
@@ -25,8 +26,8 @@ from surrogate.version import __version__
 
 __all__ = ["explorer_page", "write_explorer"]
 
-SCRIPTS = ("physics", "words", "plot", "map", "forces", "controls", "output", "main")
-"""The parts of the program, each using what stands before it."""
+SCRIPTS = ("physics", "words", "coupled", "plot", "map", "forces", "controls", "output", "main")
+"""The parts of the program, each using what stands before it; that of a law only if it is known."""
 
 
 def write_explorer(
@@ -66,12 +67,15 @@ def write_explorer(
     Raises
     ------
     InputError
-        If `scene` is no `Scene` of single numbers, `cuts` no `Measurements`, there is no such law,
-        `diameters` is not True or False, or the file cannot be written.
+        If `scene` is no `Scene` of single numbers, `cuts` no `Measurements`, there is no such law
+        or the models in use do not have it, `diameters` is not True or False, or the file cannot be
+        written.
 
     Notes
     -----
-    Range of validity: the page shows no force outside the domain of the table, and says so.
+    Range of validity: the page shows no force outside the domain of the table, nor one of the law
+    "coupled" beyond the solutions with friction and wear, and says so. It has the laws that the
+    models in use have.
 
     References
     ----------
@@ -121,7 +125,7 @@ def explorer_page(
         "version": __version__,
         "data_date": data_date(known),
         "data": _json(numbers),
-        "scripts": "\n".join([_program(known), *(_part(f"{name}.js") for name in SCRIPTS)]),
+        "scripts": "\n".join([_program(known), *_scripts(numbers)]),
     }
     page = _part("page.html")
     for name, text in parts.items():
@@ -141,6 +145,12 @@ def _single(scene: Scene) -> Scene:
 
 def _part(name: str) -> str:
     return Path(__file__).with_name("page").joinpath(name).read_text(encoding="utf-8")
+
+
+def _scripts(numbers: Mapping[str, Any]) -> list[str]:
+    """Return the parts of the program; that of the law "coupled" only where kappa is known."""
+    known = (name for name in SCRIPTS if name != COUPLED or COUPLED in numbers)
+    return [_part(f"{name}.js") for name in known]
 
 
 def _json(numbers: Any) -> str:

@@ -1,11 +1,13 @@
 """`wirecut explore`: with what the page begins, and what is said of it."""
 
 import json
+import shutil
 
 import pytest
 
 from surrogate.basics.files import model_file
 from surrogate.cli.main import main
+from surrogate.contact.shipped import FILE, VARIABLE, folder_in_use
 
 CUTS, GEL = str(model_file("paam-wire-cutting.csv")), str(model_file("paam-material.json"))
 
@@ -47,6 +49,20 @@ def test_options_are_taken_before_the_material(tmp_path):
     start = start_of(file)
     assert (start["mu"], start["Gamma_o"], start["tau_w"], start["R_w"]) == (2e3, 3.0, 0.0, 1e-4)
     assert start["law"] == "slip"
+
+
+def test_the_law_of_coupled_solutions_is_shown_if_the_models_have_it(tmp_path, monkeypatch, capsys):
+    file = tmp_path / "explorer.html"
+    light = "--stiffening-exponent 4 --friction-coefficient 0.004 --wear-strength 20Pa"
+    command = ["explore", *light.split(), "--law", "coupled", "--out", str(file)]
+    assert main(command) == 0
+    assert start_of(file)["law"] == "coupled"
+    for name in (FILE, f"{FILE}.sha256"):
+        shutil.copy(folder_in_use() / name, tmp_path / name)
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    capsys.readouterr()
+    assert main(command) == 2
+    assert "must have the file coupled.npz" in capsys.readouterr().err
 
 
 def test_what_is_doubted_is_said(tmp_path, capsys):

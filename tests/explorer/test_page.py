@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -11,6 +12,8 @@ from surrogate.basics.files import model_file
 from surrogate.choosing.candidates import candidates
 from surrogate.choosing.laws import LAWS
 from surrogate.contact.fitted import TERMS_OF_LAW
+from surrogate.contact.shipped import FILE, folder_in_use, in_use
+from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification
 from surrogate.cutting.regimes import PARTS
 from surrogate.explorer.page import explorer_page
 from surrogate.reading.measurements import Measurements
@@ -44,10 +47,41 @@ def test_every_law_of_the_library_is_in_the_page_with_its_functions():
 def test_it_is_told_what_python_knows():
     data = data_of(explorer_page())
     known = candidates()
+    of_slip = candidates(law="slip")
     assert (data["transition"], *data["parts"]) == PARTS
-    for name, values in data["bounds"]["errors"].items():
-        np.testing.assert_array_equal(values, known.bounds.errors["table"][name].ravel())
+    assert [*data["bounds"]] == [*known.terms, *of_slip.terms]
+    for name, told in data["bounds"].items():
+        bounds = (known if name in known.terms else of_slip).bounds
+        errors = np.array(told["errors"], float)
+        np.testing.assert_array_equal(
+            np.where(np.isnan(errors), np.inf, errors), bounds.errors["table"][name]
+        )
+        assert (told["g"], told["touch"]) == ([*bounds.g], [*bounds.touch])
     assert data["domain"]["highest"] == [list(pair) for pair in known.limits.highest]
+
+
+def test_kappa_is_written_to_the_last_digit():
+    told, kappa = data_of(explorer_page())["coupled"], amplification()
+    reach = np.array(told["reach"]["values"])[told["reach"]["places"]]
+    np.testing.assert_array_equal(reach.reshape(kappa.reach.shape), kappa.reach)
+    *powers, coefficients = zip(*told["terms"], strict=True)
+    np.testing.assert_array_equal(np.transpose(powers), kappa.polynomial.powers)
+    np.testing.assert_array_equal(coefficients, kappa.polynomial.coefficients)
+    np.testing.assert_array_equal(told["errors"], kappa.errors)
+
+
+def test_models_without_kappa_make_a_page_without_its_law(tmp_path):
+    for name in (FILE, f"{FILE}.sha256"):
+        shutil.copy(folder_in_use() / name, tmp_path / name)
+    with in_use(tmp_path / FILE):
+        page = explorer_page()
+        with pytest.raises(InputError, match=AMPLIFICATION_FILE):
+            explorer_page(law="coupled")
+    assert "coupled" not in page
+    assert "coupled" in explorer_page()
+    (tmp_path / AMPLIFICATION_FILE).write_bytes(b"damaged")
+    with in_use(tmp_path / FILE), pytest.raises(InputError, match=AMPLIFICATION_FILE):
+        explorer_page()
 
 
 def test_it_begins_with_what_is_given(tmp_path):

@@ -8,7 +8,7 @@ function rightEnd(state) {
   return niceStep(largest);
 }
 
-// The forces of a law at radii that the table covers.
+// The forces of a law at radii that the table covers, in as many runs as the law covers.
 function curveOf(law, state, right, count = CURVE) {
   const [thinnest, thickest] = rubs(state) ? radiiOf(state) : [0, Infinity];
   const low = Math.max(thinnest*(1 + 1e-9), 1e-6*right), high = Math.min(thickest*(1 - 1e-9), right);
@@ -16,9 +16,29 @@ function curveOf(law, state, right, count = CURVE) {
   const radii = Array.from({length: count}, (_, i) => low + (high - low)*i/(count - 1));
   const touch = state.Gamma_o/(state.mu*touchOf(state.alpha));
   radii.push(touch*(1 - 1e-9), touch*(1 + 1e-9));  // A* jumps there
-  return radii.filter((r) => r >= low && r <= high).sort((a, b) => a - b)
-    .map((radius) => ({radius, ...forceOf(law, withRadius(state, radius))}))
-    .filter((one) => one.total < 1e300);  // the most that a scale can be made for
+  const inside = radii.filter((r) => r >= low && r <= high).sort((a, b) => a - b);
+  const at = (radius) => ({radius, ...forceOf(law, withRadius(state, radius))});
+  return runsOf(withEnds(inside, (radius) => at(radius).total !== undefined).map(at));
+}
+
+// Radii, and beside them those at which a condition changes.
+function withEnds(radii, condition) {
+  const ends = radii.slice(1).flatMap((radius, i) => {
+    if (condition(radii[i]) === condition(radius)) return [];
+    const end = changeBetween(condition, radii[i], radius);
+    return [end*(1 - 1e-9), end*(1 + 1e-9)];
+  });
+  return [...radii, ...ends].sort((a, b) => a - b);
+}
+
+// Points in a row that have a force which a scale can be made for.
+function runsOf(points) {
+  const runs = [[]];
+  for (const one of points) {
+    if (one.total < 1e300) runs[runs.length - 1].push(one);
+    else if (runs[runs.length - 1].length) runs.push([]);
+  }
+  return runs.filter((run) => run.length > 1);
 }
 
 // A law that is as many times higher leaves the picture, so that the parts stay to be seen.
@@ -26,8 +46,8 @@ const HIGHEST_OTHER = 2.5;
 
 function topOf(main, curves, state) {
   const most = (forces) => Math.max(1e-12, ...forces.filter(Number.isFinite));
-  const own = most([...main.map((one) => one.total), ...state.cuts.map(([, force, std]) => force + (std ?? 0))]);
-  const all = most(curves.flat().map((one) => one.total));
+  const own = most([...main.flat().map((one) => one.total), ...state.cuts.map(([, force, std]) => force + (std ?? 0))]);
+  const all = most(curves.flat(2).map((one) => one.total));
   return niceTop(1.05*(all <= HIGHEST_OTHER*own || !main.length ? Math.max(all, own) : 1.2*own));
 }
 
@@ -82,11 +102,13 @@ function drawLine(frame, curve, x, y, kind) {
 function drawOthers(frame, others, x, y, taken) {
   others.forEach(({law, curve}, i) => {
     if (!curve.length) return;
-    drawLine(frame, curve, x, y, `other other-${i}`);
-    const end = y.to(curve[curve.length - 1].total);
+    curve.forEach((run) => drawLine(frame, run, x, y, `other other-${i}`));
+    const end = y.to(endOf(curve).total);
     taken.push([Math.max(y.end + 2, end), end < y.end ? `${law.title} ▴` : law.title, `other-${i}`]);
   });
 }
+
+const endOf = (runs) => runs[runs.length - 1][runs[runs.length - 1].length - 1];
 
 // Names at the right ends of lines, a line's height apart.
 function endLabels(frame, labels, x) {
@@ -125,14 +147,14 @@ function drawForces(plot, state, size, change) {
   const y = linearScale(top, height - 48, 12);
   const box = {x: x.start, y: y.end, width: x.end - x.start, height: y.start - y.end};
   frame.append(svg("rect", {...box, class: "paper"}));
+  if (valid && rubs(state)) drawBeyond(frame, main, x, y, plot.beyond);
   const lines = svg("g", {"clip-path": plot.inside}), labels = [];
   frame.append(svg("clipPath", {id: plot.inside.slice(5, -1)}, svg("rect", {...box})), lines);
-  const names = drawParts(lines, main, x, y);
-  drawTotal(lines, main, x, y);
+  const names = main.flatMap((run) => drawParts(lines, run, x, y));
+  main.forEach((run) => drawTotal(lines, run, x, y));
   const others = LAWS.map((one, i) => ({law: one, curve: curves[i] ?? []})).filter((one) => one.law !== law);
   drawOthers(lines, others, x, y, labels);
-  if (main.length) labels.push([y.to(main[main.length - 1].total), law.title, "main"]);
-  if (valid && rubs(state)) drawBeyond(frame, main, x, y, plot.beyond);
+  if (main.length) labels.push([y.to(endOf(main).total), law.title, "main"]);
   const tick = axes({...inner}, y, state.diameters ? "wire diameter D [mm]" : "wire radius R_w [mm]",
     "F_ss/T [N/m]");
   frame.append(tick, ...names);
@@ -151,19 +173,22 @@ const refusalOfMaterial = (state) => {
   return Number.isFinite(wireInside) && wireInside > 0 ? refusal(withRadius(state, wireInside)) : refusal(state);
 };
 
-// What the table does not cover, thin wires and thick ones.
-function drawBeyond(frame, curve, x, y, fill) {
+// What the table and the law do not cover: thin wires, thick ones, and what is between runs.
+function drawBeyond(frame, runs, x, y, fill) {
   const place = (from, to) => frame.append(svg("rect", {
     x: from, y: y.end, width: to - from, height: y.start - y.end, fill,
   }));
-  if (!curve.length) return place(x.start, x.end);
-  const first = x.to(curve[0].radius), last = x.to(curve[curve.length - 1].radius);
-  if (first > x.start + 1) place(x.start, first);
-  if (last < x.end - 1) place(last, x.end);
+  let covered = x.start;
+  for (const run of runs) {
+    const first = x.to(run[0].radius);
+    if (first > covered + 1) place(covered, first);
+    covered = x.to(run[run.length - 1].radius);
+  }
+  if (covered < x.end - 1) place(covered, x.end);
 }
 
 function placeOnCurve(plot, state, law, x, y) {
-  const force = refusal(state) ? null : forceOf(law, state);
+  const force = refusalOf(law, state) ? null : forceOf(law, state);
   const radius = clamped(Number.isNaN(state.R_w) ? 0 : state.R_w, 0, x.from(x.end));
   const height = force ? clamped(y.to(force.total), y.end, y.start) : y.start;
   placeHandle(plot, [x.to(radius), height], state,

@@ -56,6 +56,14 @@ function cells(law, force) {
   return [number("total"), number("cleavage"), number("friction"), number("wear"), error];
 }
 
+// What is not known of a law at the state, if anything.
+function saysUnknown(law) {
+  const force = forceOf(law, state), title = capital(law.title);
+  if (!force) return `${title}: ${law.beyond}, and no force is shown.`;
+  return Number.isFinite(force.error) ? ""
+    : `${title}: how far the number may be off is unknown, because ${law.unknown}.`;
+}
+
 // The laws beside each other: a line for each, and the choice of what the pictures show.
 function showLaws(refused) {
   const rows = LAWS.map((law) => {
@@ -73,9 +81,7 @@ function showLaws(refused) {
     return row;
   });
   byId("laws").replaceChildren(...rows);
-  const unsure = refused ? [] : LAWS.filter((law) => !Number.isFinite(forceOf(law, state).error));
-  byId("laws-unknown").textContent = unsure.map((law) =>
-    `${capital(law.title)}: how far the number may be off is unknown, because ${law.unknown}.`).join(" ");
+  byId("laws-unknown").replaceChildren(...htmlOf(refused ? "" : LAWS.map(saysUnknown).filter(Boolean).join(" ")));
 }
 
 function showAnswer(refused) {
@@ -86,8 +92,7 @@ function showAnswer(refused) {
   byId("number-unit").textContent = force ? "N/m" : "";
   byId("may-be-off").textContent = !force ? "" : Number.isFinite(force.error)
     ? `error up to ${percentUp(force.error)}` : "error unknown";
-  byId("bar").textContent = `${byId("number").textContent} ${byId("number-unit").textContent}, `
-    + `${byId("may-be-off").textContent}`;
+  byId("bar").textContent = force ? `${byId("number").textContent} N/m, ${byId("may-be-off").textContent}` : "no force";
   const sentences = sentencesOf(state);
   byId("says").replaceChildren(...sentences.map((text) => {
     const line = document.createElement("p");
@@ -123,10 +128,10 @@ const sizeOfPlot = (figure) => {
 };
 
 function show() {
-  const refused = refusal(state);
+  const refused = refusalOf(lawOf(state.law), state);
   fields.forEach((one) => showField(one, state));
   showAnswer(refused);
-  showLaws(refused);
+  showLaws(refusal(state));
   showNumbers(refused);
   drawMap(plots.map, state, sizeOfPlot(byId("map")), change);
   drawForces(plots.forces, state, sizeOfPlot(byId("forces")), change);

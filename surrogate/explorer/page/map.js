@@ -5,33 +5,52 @@ const MAP = {x: [1/DATA.domain.g[1], 1/DATA.domain.g[0]], y: [1e-3, 1e2], column
 // A cut at a place of the map, in units of Gamma_o = R_w = 1.
 const atPlace = (x, y, {xi, alpha}) => ({Gamma_o: 1, R_w: 1, mu: x, tau_w: y, xi, alpha});
 
+const LOWEST = MAP.y[0]*1e-3, HIGHEST = MAP.y[1]*1e3;
+
+// The y between which a law has a force at one x: the longest stretch of them, or nan. Gaps that are
+// narrower than a sixteenth of a decade may be missed.
+function coverAt(law, x, state) {
+  const has = (y) => law.covers(1/x, atPlace(x, y, state));
+  const ys = spaced(LOWEST, HIGHEST, 16), stretches = [];
+  ys.forEach((y, i) => {
+    if (!has(y)) return;
+    const from = !i ? y : has(ys[i - 1]) ? null : changeBetween(has, ys[i - 1], y);
+    if (from !== null) stretches.push([from, y]);
+    const last = stretches[stretches.length - 1];
+    last[1] = i + 1 === ys.length || has(ys[i + 1]) ? y : changeBetween(has, y, ys[i + 1])*(1 - 1e-9);
+  });
+  return stretches.sort((a, b) => b[1]/b[0] - a[1]/a[0])[0] ?? [NaN, NaN];
+}
+
 // The y at which wear rises above, or a part falls below, the threshold at one x.
-function edgeAt(law, part, x, state) {
+function edgeAt(law, part, x, state, [low, high]) {
+  if (Number.isNaN(low)) return NaN;
   const dominates = (y) => {
     const force = forceOf(law, atPlace(x, y, state));
-    return force[part]/force.total >= DATA.threshold;
+    return force !== null && force[part]/force.total >= DATA.threshold;
   };
-  const [low, high] = [MAP.y[0]*1e-3, MAP.y[1]*1e3];
-  if (dominates(low) === dominates(high)) return dominates(low) ? Infinity : NaN;
+  if (dominates(low) === dominates(high)) return !dominates(low) ? NaN : part === "wear" ? low : Infinity;
   return changeBetween(dominates, low, high);
 }
 
-let edgesKept = {key: ""};
+let regionsKept = {key: ""};
 
-// The edges of the regions; they depend on the law, xi and alpha alone, and are kept.
-function edgesOf(state) {
+// The edges of the regions, and between which y the law has a force; they depend on the law, xi and alpha alone, and are kept.
+function regionsOf(state) {
   const key = [state.law, state.xi, state.alpha].join();
-  if (edgesKept.key === key) return edgesKept.edges;
+  if (regionsKept.key === key) return regionsKept;
   const law = lawOf(state.law);
   const low = Math.max(MAP.x[0], (1 + 1e-9)/highestG(state.alpha)), touch = 1/touchOf(state.alpha);
   const ratio = Math.log(MAP.x[1]*(1 - 1e-9)/low)/(MAP.columns - 1);
   const across = Array.from({length: MAP.columns}, (_, i) => low*Math.exp(i*ratio));
   across.push(touch*(1 - 1e-9), touch*(1 + 1e-9));
+  for (const end of law.ends?.[0] ?? []) across.push(...[1 - 1e-9, 1 + 1e-9].map((near) => near*touch/Math.exp(end)));
   const xs = across.filter((x) => x >= low && x < MAP.x[1]).sort((a, b) => a - b);
+  const covers = xs.map((x) => [x, ...coverAt(law, x, state)]);
   const edges = Object.fromEntries(DATA.parts.map((part) =>
-    [part, xs.map((x) => [x, edgeAt(law, part, x, state)])]));
-  edgesKept = {key, edges};
-  return edges;
+    [part, covers.map(([x, ...ends]) => [x, edgeAt(law, part, x, state, ends)])]));
+  regionsKept = {key, edges, covers};
+  return regionsKept;
 }
 
 // The polygons of a region: wear lies above its edge, the others below theirs.
@@ -65,25 +84,44 @@ function roomFor(words, spans, taken) {
   return best.x === undefined ? null : best;
 }
 
+// A place of y inside the picture.
+const insideOf = (y) => (value) => clamped(y.to(value), y.end, y.start);
+
+// What the law does not cover: above the highest and below the lowest y of each x.
+function drawUncovered(frame, covers, x, y, fill) {
+  const inside = insideOf(y), known = (end, other) => Number.isNaN(end) ? other : inside(end);
+  const line = (of) => covers.map((one) => [x.to(one[0]), of(one)]);
+  const sides = [
+    [line(([, , high]) => known(high, y.start)), y.end], [line(([, low]) => known(low, y.start)), y.start],
+  ];
+  for (const [points, base] of sides) {
+    if (points.every(([, at]) => at === base)) continue;
+    const ends = [points[0], points[points.length - 1]].map(([at]) => [at, base]);
+    frame.append(svg("path", {d: pathOf([ends[0], ...points, ends[1]], true), fill}));
+  }
+}
+
 // The spans that a part fills, and those that none does.
-function spansOf(edges, x, y) {
-  const inside = (value) => Math.min(y.start, Math.max(y.end, y.to(value)));
+function spansOf({edges, covers}, x, y) {
+  const inside = insideOf(y);
+  const [tops, bottoms] = [2, 1].map((n) => covers.map((one) => Number.isNaN(one[n]) ? y.start : inside(one[n])));
   const spans = {none: []};
   for (const part of DATA.parts) {
-    spans[part] = edges[part].filter(([, edge]) => !Number.isNaN(edge)).map(([at, edge]) =>
-      part === "wear" ? [x.to(at), y.end, inside(edge)] : [x.to(at), inside(edge), y.start]);
+    spans[part] = edges[part].map(([at, edge], i) => part === "wear"
+      ? [x.to(at), tops[i], inside(edge)] : [x.to(at), Math.max(tops[i], inside(edge)), bottoms[i]])
+      .filter((_, i) => !Number.isNaN(edges[part][i][1]));
   }
   edges.wear.forEach(([at, edge], i) => {
     const others = DATA.parts.filter((part) => part !== "wear").map((part) => edges[part][i][1]);
     const below = others.filter((value) => !Number.isNaN(value)).map(inside);
-    spans.none.push([x.to(at), Number.isNaN(edge) ? y.end : inside(edge), Math.min(y.start, ...below)]);
+    spans.none.push([x.to(at), Number.isNaN(edge) ? tops[i] : inside(edge), Math.min(bottoms[i], ...below)]);
   });
   return spans;
 }
 
 // The names of the regions, each where it has most room.
-function regionNames(edges, x, y, taken) {
-  const spans = spansOf(edges, x, y), names = [];
+function regionNames(regions, x, y, taken) {
+  const spans = spansOf(regions, x, y), names = [];
   for (const part of [...DATA.parts, "none"]) {
     const words = part === "none" ? "no part dominates" : part;
     const place = roomFor(words, spans[part], taken);
@@ -104,7 +142,7 @@ function drawMap(plot, state, size, change) {
   frame.append(svg("rect", {...plane, class: "paper"}));
   const names = [];
   if (holdsAlpha(state.alpha) && state.xi >= 0 && state.xi < Infinity) {
-    const edges = edgesOf(state);
+    const regions = regionsOf(state), {edges} = regions;
     for (const part of DATA.parts) {
       const paths = regionPaths(edges[part], part, x, y);
       for (const {area, points} of paths) {
@@ -112,6 +150,7 @@ function drawMap(plot, state, size, change) {
         frame.append(svg("path", {d: pathOf(points), class: "edge"}));
       }
     }
+    drawUncovered(frame, regions.covers, x, y, plot.beyond);
     const end = x.to(Math.max(MAP.x[0], 1/highestG(state.alpha)));
     if (end > x.start + 1) {
       frame.append(svg("rect", {...plane, width: end - x.start, fill: plot.beyond}));
@@ -121,7 +160,7 @@ function drawMap(plot, state, size, change) {
     const left = touch - x.start > 145;  // whether there is room on the side that is meant
     const [px, py] = pointOf(state, x, y).place;
     const taken = [{x: touch + (left ? -72 : 72), y: y.end + 10, half: 66}, {x: px, y: py, half: 14}];
-    names.push(...regionNames(edges, x, y, taken));
+    names.push(...regionNames(regions, x, y, taken));
     names.push(note("◂ wire touches the tip", {
       x: touch + (left ? -6 : 6), y: y.end + 14, "text-anchor": left ? "end" : "start", class: "small",
     }));
@@ -133,8 +172,6 @@ function drawMap(plot, state, size, change) {
   plot.step = (right, up, by) => change(stepped(state, right, up, by));
   plot.content.replaceChildren(frame);
 }
-
-const clamped = (value, low, high) => Math.min(Math.max(value, low), high);
 
 // The line on which other wires in the same material are, and the cuts on it.
 function drawWires(frame, state, x, y) {

@@ -42,8 +42,8 @@ function tableOf(state) {
   ];
   if (refusalOfMaterial(state)) return `${lines.join("\n")}\n`;
   for (const law of LAWS) {
-    const rows = curveOf(law, state, rightEnd(state), 100);
-    if (!refusal(state)) rows.push({radius: state.R_w, ...forceOf(law, state)});
+    const rows = curveOf(law, state, rightEnd(state), 100).flat();
+    if (!refusalOf(law, state)) rows.push({radius: state.R_w, ...forceOf(law, state)});
     rows.sort((a, b) => a.radius - b.radius);
     lines.push(...rows.map((one) => [law.name, one.radius, one.g, one.total, one.cleavage,
       one.friction, one.wear, Number.isFinite(one.error) ? one.error : ""].join(",")));

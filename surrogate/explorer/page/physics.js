@@ -1,23 +1,33 @@
 // What the page computes: the functions A, B, A* and B* are the exported table's, see `TABLE`.
 
 // The laws of dissipation; the functions are the table's, by the names that Python uses.
-// `factor` multiplies friction and wear; `errorKnown` says where the bounds of the functions are
-// bounds of the force.
+// `factor` multiplies friction and wear, and `bend` is d ln factor/d ln g; `covers` says where the
+// factor is known, and `ownError` how far it may be off.
+const FIRST_ORDER = {factor: () => 1, bend: () => 0, covers: () => true, ownError: () => 0};
+
 const LAWS = [
   {
     name: "projected", title: "projected", equation: "Eq. (S2)",
-    arc: "arc", load: "normal_load", factor: () => 1, errorKnown: () => true,
+    arc: "arc", load: "normal_load", ...FIRST_ORDER,
     says: "the paper’s Eq. (S2): the shear on the wire counts by its part along the cut",
   },
   {
     name: "slip", title: "slip", equation: "balance of energy",
-    arc: "slip_arc", load: "slip_load", factor: () => 1, errorKnown: (g, touch) => g < touch,
+    arc: "slip_arc", load: "slip_load", ...FIRST_ORDER,
     says: "the balance of energy to first order in wear and friction: shear times slip",
-    unknown: "the crack tip touches the wire, where the force depends on how sharp the tip is",
+    unknown: "the crack tip touches the wire or is close to it, where the force depends on how sharp the tip is",
   },
-];
+].filter((law) => law.arc in DATA.bounds);
 
 const lawOf = (name) => LAWS.find((law) => law.name === name) ?? LAWS[0];
+
+const clamped = (value, low, high) => Math.min(Math.max(value, low), high);
+
+// A polynomial of rising powers, by Horner's rule.
+const polynomialAt = (coefficients, at) => coefficients.reduceRight((sum, c) => sum*at + c, 0);
+
+// The number of the interval between rising edges, of which the outer ones do not count.
+const intervalOf = (edges, value) => edges.slice(1, -1).filter((edge) => value >= edge).length;
 
 const touchOf = (alpha) => Math.exp(TABLE.logTouch(Math.log(alpha)));
 
@@ -43,30 +53,32 @@ const holdsAlpha = (alpha) => alpha >= DATA.domain.alpha[0] && alpha <= DATA.dom
 const holds = (g, alpha) => holdsAlpha(alpha) && g >= DATA.domain.g[0]
   && g <= highestG(alpha)*ROUNDING;
 
-// The bound of |ln(table/finite elements)| of a function, constant in cells of g and alpha.
+// The bound of |ln(table/finite elements)| of a function, constant in cells of alpha and of g, or of
+// g over that at which the tip touches the wire; infinite where nothing is known.
 function boundOf(name, g, alpha) {
-  const {bounds} = DATA;
-  const cell = (edges, value) => edges.slice(1, -1).filter((edge) => value >= edge).length;
-  return bounds.errors[name][cell(bounds.g, g)*(bounds.alpha.length - 1) + cell(bounds.alpha, alpha)];
+  const {touch, errors, ...edges} = DATA.bounds[name];
+  const at = touch.length ? Math.exp(Math.log(g) - polynomialAt(touch, Math.log(alpha))) : g;
+  if (at < edges.g[0]) return Infinity;
+  return errors[intervalOf(edges.g, at)][intervalOf(edges.alpha, alpha)] ?? Infinity;
 }
 
 const gOf = (s) => s.Gamma_o/(s.mu*s.R_w);
 
 const rubs = (s) => s.xi !== 0 || s.tau_w !== 0;
 
-// The force and its parts [N/m], and by how much it may be off; null outside the table.
+// The force and its parts [N/m], and by how much it may be off; null outside the table and the law.
 function forceOf(law, s) {
   const g = gOf(s), {alpha, Gamma_o: cleavage} = s;
   if (!rubs(s)) return {g, cleavage, friction: 0, wear: 0, total: cleavage, error: 0};
-  if (!holds(g, alpha)) return null;
+  if (!holds(g, alpha) || !law.covers(g, s)) return null;
   const scale = 2*law.factor(g, s);
   const wear = s.tau_w ? scale*(s.tau_w*s.R_w)*TABLE[law.arc](g, alpha) : 0;
   const friction = s.xi ? scale*(s.R_w*(s.xi*s.mu))*TABLE[law.load](g, alpha) : 0;
   const total = cleavage + friction + wear;
-  const off = (part, name) => part === 0 ? 0 : part*Math.expm1(boundOf(name, g, alpha));
-  const known = law.errorKnown(g, touchOf(alpha));
-  const error = known ? (off(friction, law.load) + off(wear, law.arc))/total : NaN;
-  return {g, cleavage, friction, wear, total, error};
+  const own = law.ownError(g, s);
+  const off = (part, name) => part === 0 ? 0 : part*(Math.expm1(boundOf(name, g, alpha)) + own);
+  const error = (off(friction, law.load) + off(wear, law.arc))/total;
+  return {g, cleavage, friction, wear, total, error: Number.isFinite(error) ? error : NaN};
 }
 
 const withRadius = (s, R_w) => ({...s, R_w});
@@ -102,7 +114,8 @@ function changeBetween(condition, low, high) {
   return high;
 }
 
-// The stretches of radius [m] in which one part dominates or none does, thin wires first.
+// The stretches of radius [m] in which one part dominates or none does, thin wires first; the part
+// is null where the law has no force.
 function stretchesOf(law, s) {
   const [low, high] = radiiOf(s);
   const at = (radius) => {
@@ -112,11 +125,13 @@ function stretchesOf(law, s) {
   };
   const stretches = [{from: low, part: at(low*(1 + 1e-9))}];
   let before = low;
-  for (const radius of spaced(low*(1 + 1e-9), high*(1 - 1e-9), 24)) {
-    const last = stretches[stretches.length - 1];
+  const [first, last] = [low*(1 + 1e-9), high*(1 - 1e-9)];
+  const own = s.R_w > first && s.R_w < last ? [s.R_w] : [];
+  for (const radius of [...spaced(first, last, 24), ...own].sort((a, b) => a - b)) {
+    const latest = stretches[stretches.length - 1];
     const part = at(radius);
-    if (part !== last.part) {
-      stretches.push({from: changeBetween((r) => at(r) === last.part, before, radius), part});
+    if (part !== latest.part) {
+      stretches.push({from: changeBetween((r) => at(r) === latest.part, before, radius), part});
     }
     before = radius;
   }
@@ -126,19 +141,15 @@ function stretchesOf(law, s) {
 // h(g), whose zero is the transition: what the radius does not change less what changes with it.
 function transitionBalance(law, s, g) {
   const {alpha} = s, relative = s.tau_w/s.mu;
-  const dissipation = (at) => {
-    const arc = relative ? relative*TABLE[law.arc](at, alpha) : 0;
-    return 2*(arc + (s.xi ? s.xi*TABLE[law.load](at, alpha) : 0));
-  };
+  const drag = 2*((relative ? relative*TABLE[law.arc](g, alpha) : 0)
+    + (s.xi ? s.xi*TABLE[law.load](g, alpha) : 0));
   const slope = (relative ? relative*TABLE.byLogG(TABLE[law.arc], g, alpha) : 0)
     + (s.xi ? s.xi*TABLE.byLogG(TABLE[law.load], g, alpha) : 0);
-  const factor = (at) => law.factor(at, {...s, R_w: s.Gamma_o/(s.mu*at)}), step = 1e-5;
-  const bend = (factor(g*Math.exp(step)) - factor(g*Math.exp(-step)))/(2*step);
-  return g + 2*(bend*dissipation(g) + factor(g)*2*slope) - factor(g)*dissipation(g);
+  return g + law.factor(g, s)*(2*(law.bend(g, s)*drag + 2*slope) - drag);
 }
 
 // The transition radius [m], or why there is none: "never" where nothing rubs, "below" or "above"
-// where it is at a g beyond the table.
+// where it is at a g beyond the table, "beyond" where the law does not cover it.
 function transitionOf(law, s) {
   if (!rubs(s)) return {why: "never"};
   const ends = [DATA.domain.g[0], highestG(s.alpha)];
@@ -148,5 +159,6 @@ function transitionOf(law, s) {
   while (last >= 0 && !dominated(grid[last])) --last;
   if (last < 0) return {why: "below"};
   if (last === grid.length - 1) return {why: "above"};
-  return {radius: s.Gamma_o/(s.mu*changeBetween(dominated, grid[last], grid[last + 1]))};
+  const g = changeBetween(dominated, grid[last], grid[last + 1]);
+  return law.covers(g, s) ? {radius: s.Gamma_o/(s.mu*g)} : {why: "beyond"};
 }

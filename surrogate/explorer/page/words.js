@@ -44,7 +44,18 @@ function wire(state, radius, count = 3) {
 // The size of a wire alone, after another has been named with its letter.
 const sizeAlone = (state, radius) => wire(state, radius).split("\u00a0=\u00a0")[1];
 
-// Why a state has no force, in words, with the remedy; an empty text where it has one.
+const TOO_LARGE = "The force is beyond the range of numbers; none is shown. Check the units.";
+
+// Why a state has no force by a law, in words; an empty text where it has one.
+function refusalOf(law, state) {
+  const refused = refusal(state);
+  if (refused) return refused;
+  const force = forceOf(law, state);
+  if (!force) return law.refusal(state);
+  return Number.isFinite(force.total) ? "" : TOO_LARGE;
+}
+
+// Why a state has no force by any law, with the remedy; an empty text where it has one.
 function refusal(state) {
   for (const q of DATA.quantities) {
     const value = state[q.key];
@@ -61,8 +72,7 @@ function refusal(state) {
       + "is shown, because the table is not continued beyond its ends.";
   }
   if (holds(g, alpha)) {
-    return Number.isFinite(forceOf(lawOf(state.law), state).total) ? ""
-      : "The force is beyond the range of numbers; none is shown. Check the units.";
+    return Number.isFinite(forceOf(LAWS[0], state).total) ? "" : TOO_LARGE;
   }
   const [thinnest, thickest] = radiiOf(state), high = g > highestG(alpha);
   return `g = Γ_o/(μ R_w) = ${digits(g)} is outside the table, which covers `
@@ -92,16 +102,29 @@ function saysDominant(force) {
 }
 
 function saysStretches(law, state) {
-  const stretches = stretchesOf(law, state);
+  const {run, thinner, thicker} = runAround(stretchesOf(law, state), state.R_w);
   const does = (part) => part === DATA.transition ? "no part" : part;
-  const covered = saysCovered(state);
-  if (stretches.length === 1) return `So it is with every wire that the table covers${covered}.`;
-  const told = stretches.map(({part, to}, i) => {
+  const told = run.map(({part, to}, i) => {
     const end = i === 0 ? wire(state, to) : sizeAlone(state, to);
-    const reach = i < stretches.length - 1 ? `up to ${end}` : "with thicker wires";
+    const reach = i < run.length - 1 || thicker ? `up to ${end}` : "with thicker wires";
     return i === 0 ? `${does(part)} dominates ${reach}` : `${does(part)} ${reach}`;
   });
-  return `In this solid ${listed(told)}${covered}.`;
+  const parts = run.length > 1 ? `In this solid ${listed(told)}` : "So it is with every wire that the table covers";
+  const covered = saysCovered(state);
+  if (!thinner && !thicker) return `${parts}${covered}.`;
+  const [first, last] = [run[0].from, run[run.length - 1].to];
+  const reach = !thinner ? `up to ${wire(state, last)}`
+    : `from ${wire(state, first)} ${thicker ? `to ${sizeAlone(state, last)}` : "on"}`;
+  return `${run.length > 1 ? `${parts}. ` : ""}${capital(law.solutions)} around this wire reach ${reach}${covered}.`;
+}
+
+// The stretches around a radius between which the law has a force, and whether it has none beside.
+function runAround(stretches, radius) {
+  const at = stretches.findIndex((one) => radius < one.to), own = at < 0 ? stretches.length - 1 : at;
+  let [low, high] = [own, own];
+  while (low > 0 && stretches[low - 1].part !== null) --low;
+  while (high + 1 < stretches.length && stretches[high + 1].part !== null) ++high;
+  return {run: stretches.slice(low, high + 1), thinner: low > 0, thicker: high + 1 < stretches.length};
 }
 
 // Where the table begins, and where it ends if there are wires as thick.
@@ -117,6 +140,8 @@ function saysTransition(law, state) {
     never: "Without wear and friction the radius does not matter.",
     below: "The transition radius is beyond the thickest wire that the table covers.",
     above: "The transition radius is below the thinnest wire that the table covers.",
+    beyond: "The transition radius is beyond the solutions: where it would be, none with as much friction and "
+      + "wear is near.",
   };
   if (transition.why) return words[transition.why];
   return `Transition radius: at ${wire(state, transition.radius)} what the radius changes becomes as large `
@@ -141,9 +166,9 @@ function saysError(law, force) {
 
 // Everything that is said about a state, sentence by sentence.
 function sentencesOf(state) {
-  const refused = refusal(state);
+  const law = lawOf(state.law), refused = refusalOf(law, state);
   if (refused) return [refused];
-  const law = lawOf(state.law), force = forceOf(law, state), inside = holds(force.g, state.alpha);
+  const force = forceOf(law, state), inside = holds(force.g, state.alpha);
   return [
     saysDominant(force),
     ...(rubs(state) ? [saysStretches(law, state)] : []),
