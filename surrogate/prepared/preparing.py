@@ -100,12 +100,12 @@ def prepare(
     0.244 mm
     """
     box = _box(fixed, varying, ranges)
-    chosen = of_law(model, law)
-    if law == COUPLED:
+    if isinstance(law, str) and law == COUPLED:
         raise InputError(
             f"law must be one of {PROJECTED}, {SLIP} to prepare a force, but is {law!r}; choose "
             f"one, or call cutting_force with law={law!r}."
         )
+    chosen = of_law(model, law)
     tolerance = None if rtol is None else one_number(RTOL, rtol)
     terms = [term for term in TERMS if box[_STRENGTHS[term]][1] > 0.0]
     if is_auto(chosen):
