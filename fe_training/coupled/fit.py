@@ -39,6 +39,10 @@ KNOWN = 0.01
 #: The same with the base of a row left out, up to which its error counts.
 LEFT_OUT_KNOWN = 2.0 * KNOWN
 
+#: Largest |ln kappa| of a row that is used. Towards the limit of the load it grows without end, and
+#: rows there would make the process expect as much everywhere.
+MOST = 0.5
+
 #: Factor of the largest error of the rows of a cell.
 SAFETY = 1.5
 
@@ -100,12 +104,13 @@ def rows_of(data: CoupledData, touch: tuple[float, ...]) -> FitRows:
         values = np.log(data.amplification)
         sums = np.log((data["steady_force"] - data["energy_release_rate"]) / first)
         drag = first * np.exp(values)
-        usable = np.isfinite(values) & np.isfinite(sums) & (data.balance_error <= BALANCE_BOUND)
+        noise = (_FLOOR + _LEFT * np.abs(values - sums)) ** 2
+        usable = np.isfinite(noise) & (data.balance_error <= BALANCE_BOUND)
+        usable &= np.abs(values) <= MOST
     usable &= ~data["touches_tip"] & (friction + wear > 0.0)
     y = np.log(data["alpha"])
     x = np.log(data["target"]) - log_touch(touch, y)
     inputs = np.stack([x, y, friction, np.log1p(wear)], axis=1)
-    noise = (_FLOOR + _LEFT * np.abs(values - sums)) ** 2
     share = drag / (data["target"] + drag)
     rows = FitRows(inputs, values, noise, share, data["base"], data["held_out"]).taken(usable)
     _, different = np.unique(
@@ -155,6 +160,7 @@ def fit_amplification(
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
         about,
+        lowest=float(np.exp(np.min(seen.inputs[:, 0] + log_touch(touch, seen.inputs[:, 1])))),
     )
     kappa = replace(bare, polynomial=_polynomial(bare, process, seen))
     kappa = replace(kappa, errors=_errors(kappa, process, seen), growth=_growth(kappa))

@@ -50,6 +50,8 @@ class Amplification:
         Largest |ln kappa| over xi + w/10.
     about : mapping
         What is told of the data and the fit.
+    lowest : float
+        The lowest g at which kappa is known [-].
     """
 
     touch: tuple[float, ...]
@@ -61,6 +63,7 @@ class Amplification:
     errors: Array
     growth: Array
     about: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    lowest: float = 0.0
 
     def log_factor(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return ln kappa; with the nearest load, g and alpha that are known where these are not.
@@ -102,6 +105,7 @@ class Amplification:
         """Return the same at x = ln(g/g_touch) and y = ln alpha."""
         inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
         inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
+        inside = inside & (x + log_touch(self.touch, y) >= self._log_lowest)
         size, direction = self._load(xi, wear)
         x, y = self._clamped(x, y)
         with np.errstate(all="ignore"):
@@ -128,6 +132,10 @@ class Amplification:
         x, y, _ = self.axes
         return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
+    @cached_property
+    def _log_lowest(self) -> float:
+        return float(np.log(self.lowest)) - 1e-9 if self.lowest else -np.inf
+
     def _clamped(self, x: Any, y: Any) -> tuple[Any, Any]:
         (left, right), (low, high) = self._ends
         return _between(x, left, right), _between(y, low, high)
@@ -150,6 +158,7 @@ class Amplification:
         size, direction = self._load(xi, wear)
         reach = self.reach_at(x, y, direction)
         free = (x == place[0]) & (y == place[1]) & (size <= reach)
+        free = free & (place[0] + log_touch(self.touch, place[1]) >= self._log_lowest)
         most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
         worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
         known = size <= reach

@@ -26,6 +26,7 @@ def content_of_amplification(kappa: Amplification) -> bytes:
         **kappa.about,
         "touch": list(kappa.touch),
         "largest": list(kappa.largest),
+        "lowest": kappa.lowest,
         "edges": [list(each) for each in kappa.edges],
     }
     arrays = {
@@ -61,6 +62,7 @@ def amplification_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Amp
             arrays["errors"],
             arrays["growth"],
             about,
+            float(about["lowest"]),
         )
         _require_shapes(kappa)
     except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:

@@ -120,6 +120,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "largest": kappa.largest,
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
+            "lowest": kappa.lowest,
         }
     }
 
