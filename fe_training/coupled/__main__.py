@@ -100,11 +100,10 @@ def _draw(folder: Path) -> int:
     from fe_training.campaign.dataset import load_campaign
     from fe_training.coupled.dataset import read_coupled
     from fe_training.coupled.figures import PICTURES, draw_pictures
-    from surrogate.basics.files import model_file
     from surrogate.contact.shipped import folder_in_use
     from surrogate.coupling.shipped import amplification
 
-    campaign = load_campaign(model_file("campaign.h5"))
+    campaign = load_campaign()
     draw_pictures(read_coupled(folder_in_use() / DATA), amplification(), campaign, folder)
     sys.stdout.write("".join(f"{folder / name}.png\n" for name in PICTURES))
     return 0

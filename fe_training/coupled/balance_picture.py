@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +21,9 @@ __all__ = ["SIZE", "balance_figure"]
 SIZE = (7.0, 2.9)
 """Size of the figure [inch]."""
 
-#: The sketch: ends of the contact, and the place of the tip [R_w].
-_ENDS, _TIP = np.deg2rad((40.0, 140.0)), 1.6
+#: The sketch: ends of the contact [rad], and the place of the tip [R_w].
+_ENDS: tuple[float, float] = math.radians(40.0), math.radians(140.0)
+_TIP = 1.6
 
 #: Exponent and toughnesses of the slips that are shown.
 _ALPHA, _TOUGHNESSES = 5.0, (0.01, 0.1, 1.0)
@@ -53,7 +55,7 @@ def _words(ax: Axes, at: tuple[float, float], text: str, **form: Any) -> None:
 
 def _face(x: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the height of the face: behind the wire, on it, and in front of it to the tip."""
-    front, rear = np.cos(_ENDS)
+    front, rear = np.cos(np.array(_ENDS))
     behind = np.sin(_ENDS[1]) + 0.3 * (1.0 - np.exp(1.1 * (x - rear)))
     ahead = np.sin(_ENDS[0]) * np.sqrt(np.clip((_TIP - x) / (_TIP - front), 0.0, None))
     on = np.sqrt(np.clip(1.0 - x**2, 0.0, None))

@@ -208,7 +208,7 @@ def _draw_ray(
 ) -> Any:
     colour, marker = style
     at = ray.friction if direction == 0.0 else ray.wear
-    form = {"ls": "", "color": colour, "ms": 3.6}
+    form: dict[str, Any] = {"ls": "", "color": colour, "ms": 3.6}
     (marks,) = ax.plot(
         at[~ray.touches],
         ray.kappa[~ray.touches],
