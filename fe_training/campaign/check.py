@@ -12,6 +12,7 @@ from fe_training.campaign.design import Configuration
 from fe_training.campaign.run import Plan, SolvePath, run_campaign
 from fe_training.campaign.store import Store
 from fe_training.campaign.workers import Workers
+from fe_training.solver.record import Record
 from fe_training.solver.solve import solve_path
 from surrogate.errors import InputError
 
@@ -118,21 +119,29 @@ def check_rows(
     checks = []
     for one, (point, row) in wanted.items():
         record = solved[one]
-        arc = np.cos(rows["theta_1"][row]) - np.cos(rows["theta_2"][row])
-        stored = float(arc), float(rows["vertical_force"][row]), float(rows["distance"][row])
-        errors = (
-            points["arc_error"][point],
-            points["normal_load_error"][point] * stored[1],
-            points["distance_error"][point] * stored[2],
-        )
-        checks.append(
-            RowCheck(
-                one,
-                ("A", "B", "delta"),
-                stored,
-                (record.arc, record.normal_load, record.distance),
-                tuple(float(e) + _FLOOR * max(1.0, s) for e, s in zip(errors, stored, strict=True)),
-                record.outcome.name,
-            )
-        )
+        checks.append(_compared(campaign, one, point, row, record))
     return checks
+
+
+def _compared(
+    campaign: Campaign, one: Configuration, point: int, row: int, record: Record
+) -> RowCheck:
+    """Return the row of a point beside what came out now."""
+    points, rows = campaign.points, campaign.rows
+    arc = np.cos(rows["theta_1"][row]) - np.cos(rows["theta_2"][row])
+    names = ["A", "B", "delta"]
+    stored = [float(arc), float(rows["vertical_force"][row]), float(rows["distance"][row])]
+    solved = [record.arc, record.normal_load, record.distance]
+    errors = [
+        float(points["arc_error"][point]),
+        float(points["normal_load_error"][point]) * stored[1],
+        float(points["distance_error"][point]) * stored[2],
+    ]
+    if "slip_arc" in rows.columns:
+        names += ["A*", "B*"]
+        stored += [float(rows["slip_arc"][row]), float(rows["slip_load"][row])]
+        solved += [record.slip_arc, record.slip_load]
+        relative = (points[f"{name}_error"][point] for name in ("slip_arc", "slip_load"))
+        errors += [float(e) * s for e, s in zip(relative, stored[3:], strict=True)]
+    allowed = tuple(e + _FLOOR * max(1.0, s) for e, s in zip(errors, stored, strict=True))
+    return RowCheck(one, tuple(names), tuple(stored), tuple(solved), allowed, record.outcome.name)

@@ -13,6 +13,7 @@ from surrogate.basics.command import OneLineParser, run_command
 
 if TYPE_CHECKING:
     from fe_training.coupled.design import CoupledDesign
+    from fe_training.coupled.store import CoupledStore
 
 DATA = "coupled.h5"
 _EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py", "matplotlib"}
@@ -40,6 +41,11 @@ def _parser() -> argparse.ArgumentParser:
     add("--jobs", type=int, default=1, metavar="N", help="processes (1)")
     add("--bases", type=int, metavar="N", help="only the first N bases")
     add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
+    add(
+        "--finer",
+        action="store_true",
+        help="solve first rays of the bases that no fit sees a second time, on the finer mesh",
+    )
     add("--check", action="store_true", help="tell what is finished, and solve nothing")
     add(
         "--fit",
@@ -56,10 +62,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from fe_training.campaign.workers import Workers
     from fe_training.coupled.dataset import collected, write_coupled
     from fe_training.coupled.design import read_design
-    from fe_training.coupled.run import run_coupled, waiting
+    from fe_training.coupled.run import waiting
     from fe_training.coupled.store import CoupledStore
 
     design, store = read_design(options.design), CoupledStore(options.store)
@@ -67,12 +72,11 @@ def _run(options: argparse.Namespace) -> int:
         return _fit(Path(options.fit), design)
     if options.figures:
         return _draw(Path(options.figures))
-    todo = waiting(design, store)[: options.bases]
+    finer = CoupledStore(store.folder / "finer")
     if not options.check:
-        with store.opened(design):
-            run_coupled(design, store, todo, Workers(options.jobs))
+        _solve(design, store, finer, options)
     if options.write:
-        write_coupled(collected(design, store), options.write)
+        write_coupled(collected(design, store, finer), options.write)
     outcomes: Counter[str] = Counter()
     for base in design.all_bases():
         rows = store.read(base)
@@ -82,6 +86,23 @@ def _run(options: argparse.Namespace) -> int:
     lines.append(f"{len(waiting(design, store)):6d} of {design.bases} bases are not finished")
     sys.stdout.write("\n".join(lines) + "\n")
     return 0
+
+
+def _solve(
+    design: CoupledDesign, store: CoupledStore, finer: CoupledStore, options: argparse.Namespace
+) -> None:
+    from fe_training.campaign.workers import Workers
+    from fe_training.coupled.run import again, run_coupled, waiting
+
+    workers = Workers(options.jobs)
+    if options.finer:
+        other = design.on_finer_mesh()
+        todo = [base for base in again(design, store) if not finer.is_finished(base)]
+        with finer.opened(other):
+            run_coupled(other, finer, todo[: options.bases], workers)
+        return
+    with store.opened(design):
+        run_coupled(design, store, waiting(design, store)[: options.bases], workers)
 
 
 def _fit(folder: Path, design: CoupledDesign) -> int:

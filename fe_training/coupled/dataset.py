@@ -61,7 +61,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "max_stretch": ("-", "largest principal stretch"),
     "notch_radius": ("R_w", "radius of the notch at the tip"),
     "unknowns": ("-", "free unknowns"),
-    "mesh_error": ("-", "relative difference of F_ss - J from a coarser mesh; nan if not made"),
+    "mesh_error": ("-", "relative difference of kappa from a finer mesh; nan if not made"),
     "processor_time": ("s", "processor time since the row before"),
     "base": ("-", "number of the base in the design"),
     "held_out": ("-", "whether no fit sees the row"),
@@ -115,8 +115,19 @@ class CoupledData:
         return np.asarray(self["outcome"] == SlidingOutcome.CONVERGED.name)
 
 
-def collected(design: CoupledDesign, store: CoupledStore) -> CoupledData:
-    """Return the rows that a store has of a design, failed ones included."""
+def collected(
+    design: CoupledDesign, store: CoupledStore, finer: CoupledStore | None = None
+) -> CoupledData:
+    """Return the rows that a store has of a design, failed ones included.
+
+    Parameters
+    ----------
+    design : CoupledDesign
+    store : CoupledStore
+        The rows of the campaign.
+    finer : CoupledStore, optional
+        Some of them on a finer mesh, for the column ``mesh_error``.
+    """
     records: list[SlidingRecord] = []
     bases: list[tuple[int, bool]] = []
     software: list[str] = []
@@ -132,6 +143,8 @@ def collected(design: CoupledDesign, store: CoupledStore) -> CoupledData:
         for field in fields(SlidingRecord)
         if field.name in COLUMNS
     }
+    if finer is not None:
+        columns["mesh_error"] = _mesh_errors(records, [n for n, _ in bases], design, finer)
     columns["base"] = np.array([number for number, _ in bases], dtype=np.int64)
     columns["held_out"] = np.array([held for _, held in bases], dtype=bool)
     attributes = {
@@ -140,6 +153,29 @@ def collected(design: CoupledDesign, store: CoupledStore) -> CoupledData:
         "software": json.dumps(sorted(set(software))),
     }
     return CoupledData(columns, attributes)
+
+
+def _mesh_errors(
+    records: list[SlidingRecord], numbers: list[int], design: CoupledDesign, finer: CoupledStore
+) -> NDArray[np.float64]:
+    """Return how far kappa is from that of the finer mesh, relatively; nan where there is none."""
+    again = {}
+    for base in design.all_bases():
+        rows = finer.read(base)
+        for record in rows.records if rows else ():
+            if record.outcome is SlidingOutcome.CONVERGED:
+                again[base.number, record.friction, record.wear] = _kappa(record)
+    errors = np.full(len(records), np.nan)
+    for i, (record, number) in enumerate(zip(records, numbers, strict=True)):
+        other = again.get((number, record.friction, record.wear))
+        if other is not None and record.outcome is SlidingOutcome.CONVERGED:
+            errors[i] = abs(_kappa(record) / other - 1.0)
+    return errors
+
+
+def _kappa(record: SlidingRecord) -> float:
+    first = record.wear * record.first_arc + record.friction * record.first_load
+    return (record.wear * record.slip_arc + record.friction * record.slip_load) / first
 
 
 def _column(values: list[Any]) -> NDArray[Any]:

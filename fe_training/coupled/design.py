@@ -7,7 +7,7 @@ import json
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -70,6 +70,8 @@ class CoupledDesign:
         Where on a ray rows are made, rising to 1.
     settings : Settings
         The mesh.
+    finer : Settings
+        The mesh on which some loads are solved a second time; not part of the hash.
     """
 
     bases: int
@@ -82,14 +84,16 @@ class CoupledDesign:
     rays: int
     shares: tuple[float, ...]
     settings: Settings
+    finer: Settings
 
     @property
     def hash(self) -> str:
         """Sixteen hexadecimal digits that two designs share only if all their numbers agree.
 
-        But for the number of bases: more of them is the same design, longer.
+        But for the number of bases and the finer mesh: more of them is the same design, longer.
         """
-        content = {key: value for key, value in asdict(self).items() if key != "bases"}
+        besides = "bases", "finer"
+        content = {key: value for key, value in asdict(self).items() if key not in besides}
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
     def all_bases(self) -> list[Base]:
@@ -99,6 +103,10 @@ class CoupledDesign:
         sequence = qmc.Sobol(3, seed=self.seed)
         points = sequence.random_base2(int(np.ceil(np.log2(self.bases))))[: self.bases]
         return [self._base(number, *map(float, point)) for number, point in enumerate(points)]
+
+    def on_finer_mesh(self) -> CoupledDesign:
+        """Return the design of the loads that are solved a second time: another mesh."""
+        return replace(self, settings=self.finer)
 
     def _base(self, number: int, x: float, y: float, z: float) -> Base:
         low, high = self.alpha
@@ -155,6 +163,7 @@ def _design(content: Mapping[str, Any]) -> CoupledDesign:
         rays=int(rays["count"]),
         shares=tuple(float(share) for share in rays["shares"]),
         settings=Settings(**content["settings"]),
+        finer=Settings(**{**content["settings"], **content.get("finer", {})}),
     )
 
 

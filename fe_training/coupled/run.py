@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from fe_training.campaign.software import software
@@ -63,6 +64,29 @@ def run_coupled(
         Parallel(batch_size=1, pre_dispatch="all")(
             delayed(run_base)(base, design.settings, str(store.folder), solve) for base in todo
         )
+
+
+def again(design: CoupledDesign, store: CoupledStore) -> list[Base]:
+    """Return what is solved a second time: first rays of bases that no fit sees, where they got.
+
+    Parameters
+    ----------
+    design : CoupledDesign
+    store : CoupledStore
+        The rows of the campaign.
+    """
+    found = []
+    for base in design.all_bases():
+        rows = store.read(base) if base.held_out else None
+        reached = {
+            (row.target_friction, row.target_wear)
+            for row in (rows.records if rows else ())
+            if row.outcome is SlidingOutcome.CONVERGED
+        }
+        ray = tuple(load for load in base.rays[0] if load in reached)
+        if ray:
+            found.append(replace(base, rays=(ray,)))
+    return found
 
 
 def run_base(base: Base, settings: Settings, folder: str, solve: Solve = solve_rays) -> None:

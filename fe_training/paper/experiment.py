@@ -24,6 +24,7 @@ from surrogate.basics.figures import SMALL, legend_above
 from surrogate.basics.files import model_file
 from surrogate.choosing.by_name import force_model
 from surrogate.cutting.force import cutting_force
+from surrogate.errors import DomainError
 from surrogate.identification.figure import plot_profile
 from surrogate.inference.profile import Mode
 
@@ -61,7 +62,7 @@ class Experiment:
         self.model = model
         self.paper, self.ours = self._identified("eq13"), self._identified(model)
 
-    def _identified(self, model: str) -> Identification:
+    def _identified(self, model: str, law: str = "projected") -> Identification:
         mu = self.gel.shear_modulus
         assert mu is not None  # the shipped gel has one
         return identify(
@@ -70,12 +71,16 @@ class Experiment:
             mu,
             stiffening_exponent=self.alpha,
             model=model,
+            law=law,
         )
 
     @property
     def modes(self) -> list[Mode]:
         """The minima that the forces admit, inside the search and the model's range, best first."""
-        profile = self.ours.profile
+        return self._modes(self.ours)
+
+    def _modes(self, fit: Identification) -> list[Mode]:
+        profile = fit.profile
         assert profile is not None  # a fitted model is not linear
         low = force_model(self.model).accepted(False)[0].lower
         least = low * self.ours.shear_modulus * float(self.cuts.wire_radius.max())
@@ -190,6 +195,30 @@ class Experiment:
             lines.append([f"model `{self.model}`", *_row(mode, scene, force - self.cuts.force)])
         head = ["law", r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", "$g$ of the wires"]
         return markdown_table([*head, "largest difference [N/m]"], lines)
+
+    def laws_table(self) -> str:
+        """Return what each law of dissipation makes of the same forces."""
+        lines = [["projected", *self._law_row(mode, "projected")] for mode in self.modes]
+        lines += [
+            ["slip", *self._law_row(mode, "slip")]
+            for mode in self._modes(self._identified(self.model, "slip"))
+        ]
+        try:
+            fit = self._identified(self.model, "coupled")
+            lines += [["coupled", *self._law_row(mode, "coupled")] for mode in self._modes(fit)]
+        except DomainError as error:
+            lines.append(["coupled", "", "", "", str(error).split(";")[0]])
+        head = [r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", r"$\tau_w/\mu$"]
+        return markdown_table(["law", *head, "wires of which its error is known"], lines)
+
+    def _law_row(self, mode: Mode, law: str) -> Iterator[str]:
+        yield f"{mode.toughness:.3g}"
+        yield f"{1e-3 * mode.wear_strength:.3g}"
+        yield f"{mode.wear_strength / self.ours.shear_modulus:.3g}"
+        scene = self.scene(mode, self.cuts.wire_radius)
+        error = cutting_force(scene, "auto", law=law, extrapolate=True).relative_error
+        known = np.isfinite(np.asarray(error, dtype=float))
+        yield f"{known.sum()} of {known.size}"
 
 
 def _row(mode: Mode, scene: Scene, difference: np.ndarray) -> Iterator[str]:

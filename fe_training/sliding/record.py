@@ -112,7 +112,7 @@ class SlidingRecord:
     unknowns : int
         Free unknowns.
     mesh_error : float
-        Relative difference of F_ss - J from a coarser mesh; nan where not estimated.
+        Relative difference of kappa from a finer mesh; nan where not estimated.
     processor_time : float
         Processor seconds since the last record of the path.
     """

@@ -86,7 +86,23 @@ class AutomaticTerms:
         one = type(g) is float and type(alpha) is float and type(rubbed) is type(worn) is float
         choice = self._number if one else self._block
         friction, wear, number, bound = choice(g, cell, parts, scene)
+        if holds is not True:
+            bound = self._beyond(g, alpha, (parts[0], friction, wear), bound)
         return friction, wear, holds if holds is True or not one else bool(holds), number, bound
+
+    def _beyond(self, g: Any, alpha: Any, parts: tuple[Any, Any, Any], bound: Any) -> Any:
+        """Return the bound with what was measured of the asymptotes where there was none."""
+        errors = self.known.beyond(g, alpha)
+        if errors is None:
+            return bound
+        rest, friction, wear = parts
+        with np.errstate(all="ignore"):
+            off = np.where(np.equal(wear, 0.0), 0.0, wear * errors[0])
+            off = off + np.where(np.equal(friction, 0.0), 0.0, friction * errors[1])
+            share = off / (rest + friction + wear)
+            measured = np.where(np.isfinite(share), share, np.nan)
+        found = np.where(np.isnan(bound), measured, bound)
+        return float(found) if type(bound) is float else found
 
     def _number(
         self, g: float, cell: int, parts: tuple[float, ...], scene: tuple[float, ...]

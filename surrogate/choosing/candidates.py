@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 FREE = "eq13"
 OUTSIDE = "table"  # what continues beyond the domain, where no bound is known
 TERMS = TERMS_OF_LAW[PROJECTED]
+SAFETY_BEYOND = 2.0  # how many times the largest error of some solutions that of all may be
 
 
 class Candidates:
@@ -70,6 +71,23 @@ class Candidates:
         if key not in self._tables:
             self._tables[key] = np.asarray(function(self.bounds.by_cell(model, name)))
         return self._tables[key]
+
+    def beyond(self, g: Any, alpha: Any) -> tuple[Any, Any] | None:
+        """Return how far the terms may be off above the highest g, as far as solutions told.
+
+        Infinite elsewhere; None where the file of the models says nothing of it.
+        """
+        told = self.fitted.about.get("beyond")
+        if not told:
+            return None
+        errors = told["errors"][OUTSIDE]
+        first, last = self.limits.alpha
+        high = self.limits.highest_g(alpha)
+        near = (g > high) & (g <= told["factor"] * high) & (alpha >= first) & (alpha <= last)
+        arc, load = (
+            np.where(near, SAFETY_BEYOND * errors.get(name, np.inf), np.inf) for name in self.terms
+        )
+        return arc, load
 
     @cached_property
     def of_terms(self) -> dict[str, list[tuple[float, ...]]]:

@@ -1,5 +1,7 @@
 """The choice among models: what is evaluated, what is promised, what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from made_up import truth
@@ -13,6 +15,8 @@ from surrogate import (
     cutting_force,
     dissipative_force,
 )
+from surrogate.choosing.auto import AutomaticTerms
+from surrogate.choosing.candidates import candidates
 from surrogate.contact.fitted import FittedModel
 
 pytestmark = pytest.mark.usefixtures("installed")
@@ -178,3 +182,24 @@ def test_contact_functions_within_a_tolerance():
     assert alone.model == alone.chosen == "table"
     with pytest.raises(AccuracyError):
         contact_functions(1.0, 3.0, model="auto", rtol=1e-9)
+
+
+def test_above_the_highest_g_the_measured_error_of_the_asymptote_holds_as_far_as_it_was_measured(
+    installed,
+):
+    errors = {"table": {"arc": 0.03, "normal_load": 0.01}}
+    told = {"count": 5, "factor": 8.0, "errors": errors}
+    known = candidates(replace(installed, about={**installed.about, "beyond": told}))
+    high = installed.limits.highest_g(3.0)
+    for factor, ends in ((2.0, True), (7.9, True), (8.1, False)):
+        scene = (1.0, factor * high, 1.0, 0.0, 50.0, 3.0)
+        friction, wear, inside, _, bound = AutomaticTerms(scene, None, known=known)(*scene)
+        assert not inside
+        assert friction == 0.0
+        expected = 2.0 * 0.03 * wear / (factor * high + wear) if ends else np.nan
+        assert bound == pytest.approx(expected, nan_ok=True)
+        with np.errstate(all="ignore"):  # under which every kernel is evaluated
+            many = AutomaticTerms(scene, None, known=known)(*(np.array([v, v]) for v in scene))
+        assert np.array_equal(many[4], [bound, bound], equal_nan=True)
+    below = (1.0, 0.5 * installed.limits.g[0], 1.0, 0.0, 50.0, 3.0)
+    assert np.isnan(AutomaticTerms(below, None, known=known)(*below)[4])

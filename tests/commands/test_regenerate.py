@@ -205,17 +205,20 @@ def test_check_compares_within_error_bars(made_up, at, tmp_path, capsys, monkeyp
     assert main([*at, "--check", "3"]) == 0
     assert "3 of 3 rows agree" in capsys.readouterr().out
 
-    def another(alpha, targets, settings, report):
-        for g in targets:
-            report(record(alpha, g, settings.sectors, vertical_force=9.0))
+    for change in ({"vertical_force": 9.0}, {"slip_arc": 9.0}):
 
-    monkeypatch.setattr(
-        checking, "check_rows", lambda *arguments: check_rows(*arguments, solve=another)
-    )
-    assert main([*at, "--check", "3"]) == 1
-    out = capsys.readouterr().out
-    assert out.count("DIFFERS") == 3
-    assert "0 of 3 rows agree" in out
+        def another(alpha, targets, settings, report, change=change):
+            for g in targets:
+                report(record(alpha, g, settings.sectors, **change))
+
+        def differently(*arguments, solve=another):
+            return check_rows(*arguments, solve=solve)
+
+        monkeypatch.setattr(checking, "check_rows", differently)
+        assert main([*at, "--check", "3"]) == 1
+        out = capsys.readouterr().out
+        assert out.count("DIFFERS") == 3
+        assert "0 of 3 rows agree" in out
 
 
 def test_a_sample_is_never_larger_than_the_data(small, tmp_path):

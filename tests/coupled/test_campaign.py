@@ -10,7 +10,7 @@ import pytest
 from fe_training.coupled.__main__ import main
 from fe_training.coupled.dataset import COLUMNS, collected, read_coupled
 from fe_training.coupled.design import read_design
-from fe_training.coupled.run import run_base, waiting
+from fe_training.coupled.run import again, run_base, waiting
 from fe_training.coupled.store import CoupledStore
 from fe_training.sliding.record import SlidingOutcome, SlidingRecord
 from fe_training.solver.cut import Settings
@@ -179,3 +179,33 @@ def test_a_file_that_is_no_data_set_is_refused(tmp_path):
         file.attrs["schema"] = "another"
     with pytest.raises(InputError, match="no data set"):
         read_coupled(path)
+
+
+def test_what_a_finer_mesh_makes_of_loads_is_the_error_of_the_mesh(design, tmp_path):
+    store, finer = CoupledStore(tmp_path), CoupledStore(tmp_path / "finer")
+    held_out = next(base for base in design.all_bases() if base.held_out)
+    ray = held_out.rays[0]
+
+    def sliding(arc, loads):
+        return [
+            replace(
+                record(held_out.alpha, held_out.g, friction, wear),
+                wear=wear,
+                slip_arc=arc,
+                slip_load=0.0,
+                first_arc=1.0,
+                first_load=0.0,
+            )
+            for friction, wear in loads
+        ]
+
+    stalled = replace(sliding(1.0, ray[2:3])[0], outcome=SlidingOutcome.STALLED)
+    store.write(held_out, [*sliding(1.1, ray[:2]), stalled], {})
+    (twice,) = again(design, store)
+    assert (twice.number, twice.rays) == (held_out.number, (ray[:2],))
+    finer.write(twice, sliding(1.0, ray[:2]), {})
+    data = collected(design, store, finer)
+    assert data["mesh_error"] == pytest.approx([0.1, 0.1, np.nan], nan_ok=True)
+    assert np.isnan(collected(design, store)["mesh_error"]).all()
+    assert design.on_finer_mesh().settings.contact_spacing < design.settings.contact_spacing
+    assert design.on_finer_mesh().hash != design.hash
