@@ -164,6 +164,8 @@ def helper(words):
     pytest.importorskip("skfem")
     if words[0] == "regen-surrogate":
         importlib.import_module("fe_training.regenerate").main(["--help"])
+    if words[1:3] == ["-m", "fe_training.coupled"]:
+        importlib.import_module("fe_training.coupled.__main__").main(["--help"])
     assert words[1:3] == ["-m", "fe_training"]
     importlib.import_module("fe_training.__main__").main([words[3], "--help"])
 

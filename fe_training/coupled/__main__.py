@@ -56,7 +56,8 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--figures",
         metavar="FOLDER",
-        help="draw the rows of coupled.h5 and the models in use into a folder; solves nothing",
+        help="draw the rows of coupled.h5 beside the models in use, and kappa, into a folder; "
+        "solves nothing",
     )
     return parser
 
