@@ -20,6 +20,7 @@ __all__ = ["FitPoints", "points_of"]
 Floats = NDArray[np.float64]
 
 _ONE_LEVEL = "only one mesh level was reached"
+_TRUNCATED = "B is truncated by the finite body"
 
 #: Smallest standard errors that a difference between two meshes is believed to show: of A
 #: absolutely, of B and delta relatively.
@@ -82,7 +83,7 @@ class FitPoints:
         return FitPoints(**some)
 
 
-def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
+def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 0.0) -> FitPoints:
     """Return the points of a campaign that may be used.
 
     Parameters
@@ -92,6 +93,9 @@ def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
     single_mesh : bool, default False
         Whether to take points that only one mesh level has reached as well, with errors that
         nobody measured: for trying out a fit before the campaign is complete.
+    truncated : float, default 0
+        Relative error up to which points are taken as well whose B the finite body takes off, with
+        that error in their standard errors [-]: to judge how models are continued, not to fit.
 
     Returns
     -------
@@ -107,6 +111,9 @@ def points_of(campaign: Campaign, single_mesh: bool = False) -> FitPoints:
     use = points["use"].astype(bool)
     if single_mesh:
         use = use | (points["reason"] == _ONE_LEVEL)
+    if truncated > 0.0:
+        taken_off = np.char.startswith(points["reason"].astype(str), _TRUNCATED)
+        use = use | (taken_off & (points["truncation_error"] <= truncated))
     if not use.any():
         raise InputError(
             "no point of the data set is within the bounds of its evidence, so there is nothing "

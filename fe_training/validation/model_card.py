@@ -258,7 +258,8 @@ def _beyond(found: Validation) -> Iterable[str]:
         yield "No solution there says how far that is off; the error is unknown."
         return
     yield (
-        f"Largest relative errors at {found.beyond.count} solutions that no fit has seen, up to "
+        f"Largest relative errors, each with the solution's own error bar, at {found.beyond.count} "
+        f"solutions that no fit has seen, up to "
         f"{found.beyond.factor:.2g} times the highest g. Farther on the error is unknown."
     )
     names = [name for name in _SYMBOLS if name in found.beyond.errors["table"]]

@@ -292,7 +292,7 @@ class Continued:
     factor : float
         How many times the highest g they reach [-].
     errors : mapping of str to mapping of str to float
-        By model and function, the largest relative error [-].
+        By model and function, the largest relative error, with the solution's own [-].
     """
 
     count: int
@@ -321,7 +321,7 @@ def continued(fitted: Fitted, points: FitPoints) -> Continued | None:
         return None
     errors = {
         name: {
-            function: float(np.max(np.abs(error)))
+            function: float(np.max(np.abs(error) + some.relative_std(function)))
             for function, error in contact_errors(model, some).items()
         }
         for name, model in fitted.models.items()

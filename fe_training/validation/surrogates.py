@@ -45,6 +45,10 @@ __all__ = ["CARD", "make_surrogates", "validation"]
 
 CARD = "model-card.md"
 LARGEST_FILE = 160_000
+
+#: What the finite body may take off B at solutions beyond the domain, by which the asymptotes are
+#: judged.
+TRUNCATED = 0.01
 _RTOLS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
 _RANDOM_POINTS = 20_000
 
@@ -85,7 +89,7 @@ def make_surrogates(
     wanted = data.design.points
     say(f"    {len(points)} of {wanted} points, {len(np.unique(points.alpha))} alphas")
     fitted = fit(points, _about(data, points, wanted, single_mesh))
-    others = points_of(off_grid, single_mesh=True) if off_grid else None
+    others = points_of(off_grid, single_mesh=True, truncated=TRUNCATED) if off_grid else None
     found = validation(fitted, points, others)
     told = {"errors": _told(found), "beyond": found.beyond.as_dict() if found.beyond else None}
     if {*SLIP_QUANTITIES} <= {*points.names}:
