@@ -22,7 +22,6 @@ from surrogate import contact_functions
 from surrogate.basics.figures import (
     COLOURS,
     GREY,
-    MARKERS,
     SMALL,
     in_style,
     label_axes,
@@ -44,6 +43,9 @@ Array = NDArray[np.float64]
 
 PICTURES = ("coupled-balance", "coupled-kappa", "coupled-laws", "coupled-ends")
 """Names of the pictures' files."""
+
+#: Marks of bases; a cross is where the tip touches the wire.
+_MARKERS = ("o", "s", "^", "D", "v", "<", ">")
 
 #: Bases that are drawn: fitted ones, and held-out ones.
 _FITTED, _HELD_OUT = 4, 3
@@ -177,14 +179,13 @@ def kappa_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> Non
     places = _places_drawn(paths)
     handles: list[Any] = []
     for ax, direction in ((left, 0.0), (right, 1.0)):
-        for number, ray in enumerate(
-            ray for ray in _nearest(paths, direction) if ray.base in places
-        ):
-            label = rf"$g$ = {ray.g:.3g}, $\alpha$ = {ray.alpha:.3g}"
-            style = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
-            marks = _draw_ray(ax, ray, kappa, direction, style)
+        shown = [ray for ray in _nearest(paths, direction) if ray.base in places]
+        shown.sort(key=lambda ray: (ray.held_out, ray.g))
+        for ray, colour, marker in zip(shown, COLOURS, _MARKERS, strict=False):
+            marks = _draw_ray(ax, ray, kappa, direction, (colour, marker))
             if direction == 0.0:
-                marks.set_label(f"{label}, held out" if ray.held_out else label)
+                name = rf"$g$ = {ray.g:.3g}, $\alpha$ = {ray.alpha:.3g}"
+                marks.set_label(f"{name}, held out" if ray.held_out else name)
                 handles.append(marks)
         ax.set_yscale("log")
         _plain_ticks(ax)
@@ -314,6 +315,8 @@ def ends_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> None
         for ray in _nearest(paths, direction):
             _mark_end(ax, ray, ray.g, ray.alpha)
         ax.set_xscale("log")
+        low, high = min(ray.alpha for ray in paths), max(ray.alpha for ray in paths)
+        ax.set_ylim(low - 0.3, high + 0.3)
         label_axes(ax, TOUGHNESS, r"$\alpha$ [-]")
     for ray in paths:
         _mark_end(axes[2], ray, ray.friction[-1], ray.wear[-1])
