@@ -94,6 +94,8 @@ def test_examples_run_and_print_what_the_page_says(page, tmp_path, monkeypatch):
     for text in blocks(page, "csv"):
         Path("cuts.csv").write_text(text)
     source = "".join(text for text in blocks(page, "python") if ">>>" in text)
+    if "from fe_training" in source:
+        pytest.importorskip("skfem")
     test = doctest.DocTestParser().get_doctest(source, {}, page, None, 0)
     report = []
     doctest.DocTestRunner(verbose=False).run(test, out=report.append)
@@ -162,6 +164,8 @@ def helper(words):
     pytest.importorskip("skfem")
     if words[0] == "regen-surrogate":
         importlib.import_module("fe_training.regenerate").main(["--help"])
+    if words[1:3] == ["-m", "fe_training.coupled"]:
+        importlib.import_module("fe_training.coupled.__main__").main(["--help"])
     assert words[1:3] == ["-m", "fe_training"]
     importlib.import_module("fe_training.__main__").main([words[3], "--help"])
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fe_training.coupled.store import CoupledStore
 
 DATA = "coupled.h5"
-_EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py"}
+_EXTRA = {"scipy", "skfem", "joblib", "tqdm", "h5py", "matplotlib"}
 
 _HELP = """\
 Solve the wire in the crack with friction xi and wear tau_w acting on the body, over toughness,
@@ -53,6 +53,12 @@ def _parser() -> argparse.ArgumentParser:
         help="fit kappa to the rows of coupled.h5 in a folder, and write coupled.npz and its card "
         "there; solves nothing",
     )
+    add(
+        "--figures",
+        metavar="FOLDER",
+        help="draw the rows of coupled.h5 beside the models in use, and kappa, into a folder; "
+        "solves nothing",
+    )
     return parser
 
 
@@ -65,6 +71,8 @@ def _run(options: argparse.Namespace) -> int:
     design, store = read_design(options.design), CoupledStore(options.store)
     if options.fit:
         return _fit(Path(options.fit), design)
+    if options.figures:
+        return _draw(Path(options.figures))
     finer = CoupledStore(store.folder / "finer")
     if not options.check:
         _solve(design, store, finer, options)
@@ -106,6 +114,20 @@ def _fit(folder: Path, design: CoupledDesign) -> int:
     data = read_coupled(folder / DATA)
     make_amplification(data, shipped().limits.touch, (design.friction, design.wear), folder)
     sys.stdout.write(f"{folder / CARD}\n")
+    return 0
+
+
+def _draw(folder: Path) -> int:
+    """Draw the pictures; the data set is that beside the models in use."""
+    from fe_training.campaign.dataset import load_campaign
+    from fe_training.coupled.dataset import read_coupled
+    from fe_training.coupled.figures import PICTURES, draw_pictures
+    from surrogate.contact.shipped import folder_in_use
+    from surrogate.coupling.shipped import amplification
+
+    campaign = load_campaign()
+    draw_pictures(read_coupled(folder_in_use() / DATA), amplification(), campaign, folder)
+    sys.stdout.write("".join(f"{folder / name}.png\n" for name in PICTURES))
     return 0
 
 
