@@ -25,6 +25,8 @@ from surrogate.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from surrogate.choosing.catalogue import ModelInfo, load_models, models
+    from surrogate.comparing.figure import plot_gels
+    from surrogate.comparing.gels import Comparison, compare_gels
     from surrogate.contact.closed_forms import FORCE_MODELS
     from surrogate.cutting.contact_functions import (
         ContactFunctions,
@@ -72,6 +74,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FORCE_MODELS",
     "AccuracyError",
+    "Comparison",
     "ContactFunctions",
     "CutRecord",
     "CuttingForce",
@@ -95,6 +98,7 @@ __all__ = [
     "WireDesign",
     "WirecutError",
     "classify",
+    "compare_gels",
     "contact_functions",
     "cutting_force",
     "design_radii",
@@ -113,6 +117,7 @@ __all__ = [
     "low_toughness_force",
     "models",
     "plot_force",
+    "plot_gels",
     "plot_identification",
     "plot_regime_map",
     "power_law_dissipation",
@@ -134,6 +139,8 @@ __all__ = [
 # Loaded at first use, so that nobody waits for what is not needed.
 _MODULES = {
     "choosing.catalogue": "ModelInfo load_models models",
+    "comparing.figure": "plot_gels",
+    "comparing.gels": "Comparison compare_gels",
     "contact.closed_forms": "FORCE_MODELS",
     "cutting.contact_functions": "ContactFunctions contact_functions energy_release_rate",
     "cutting.figure": "plot_force",

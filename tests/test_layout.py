@@ -1,10 +1,10 @@
 """The rooms of both packages: what each may use, and that no import runs in a circle.
 
 `surrogate`: basics, reading, scene and equations, contact, coupling, choosing, cutting, inference,
-then identification and prepared side by side, then maps, then explorer, then cli: each uses only
-what stands before it. `fe_training`: mechanics, solver, sliding, campaign, coupled, fitting,
-validation: each uses only what stands before it and `surrogate`; verification and paper stand
-beside the last two and nothing uses them but the commands.
+then identification and prepared side by side, then comparing and maps side by side, then explorer,
+then cli: each uses only what stands before it. `fe_training`: mechanics, solver, sliding, campaign,
+coupled, fitting, validation: each uses only what stands before it and `surrogate`; verification and
+paper stand beside the last two and nothing uses them but the commands.
 """
 
 import ast
@@ -27,7 +27,7 @@ ROOMS = {
         {"cutting"},
         {"inference"},
         {"identification", "prepared"},
-        {"maps"},
+        {"comparing", "maps"},
         {"explorer"},
         {"cli"},
     ),

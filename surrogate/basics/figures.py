@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from io import BytesIO
@@ -322,7 +322,9 @@ def panels(figure: Figure, columns: int, rows: int = 1, **options: Any) -> NDArr
     return np.asarray(axes)
 
 
-def label_at_right(ax: Axes, labels: Sequence[tuple[float, str]]) -> None:
+def label_at_right(
+    ax: Axes, labels: Sequence[tuple[float, str]], colours: Mapping[str, str] | None = None
+) -> None:
     """Write words outside the right edge, at heights in data and a line's height apart."""
     low, high = ax.get_ylim()
     height = float(ax.figure.canvas.figure.get_size_inches()[1]) * 72.0 * 0.75  # of the axes
@@ -339,5 +341,6 @@ def label_at_right(ax: Axes, labels: Sequence[tuple[float, str]]) -> None:
             textcoords="offset points",
             va="center",
             fontsize=SMALL,
+            color=(colours or {}).get(words, "black"),
             annotation_clip=False,
         )

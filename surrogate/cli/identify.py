@@ -22,7 +22,7 @@ from surrogate.cli.common import (
 from surrogate.cli.identification_text import identification_record, identification_text
 from surrogate.cli.steady import add_record_options, cuts_by_options
 from surrogate.errors import InputError
-from surrogate.identification.fit import identify
+from surrogate.identification.fit import Identification, identify
 from surrogate.inference.inputs import WITHOUT_MODULUS
 from surrogate.reading.cuts import measurements_of
 from surrogate.reading.material import Material, read_material
@@ -36,7 +36,16 @@ from surrogate.reading.units import (
     Dimension,
 )
 
-__all__ = ["add_fact_options", "add_table_options", "facts"]
+__all__ = [
+    "add_fact_options",
+    "add_table_options",
+    "facts",
+    "identified",
+    "measurements_by_options",
+    "of_gel",
+    "outputs_of",
+    "run_one",
+]
 
 Parser = Callable[[Dimension], Callable[[str], float]]
 
@@ -85,22 +94,37 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     source = command.add_mutually_exclusive_group(required=True)
     source.add_argument(
         "file",
-        nargs="?",
+        nargs="*",
         metavar="FILE",
-        help="table of measurements (CSV, .xlsx), or a folder of records as 'wirecut steady' reads",
+        default=[],
+        help="table of measurements (CSV, .xlsx), or a folder of records as 'wirecut steady' "
+        "reads; several are gels beside each other",
     )
     source.add_argument(
         "--example", action="store_true", help="use the shipped gel of the paper (PAAm)"
     )
-    add("--material", metavar="FILE", help="properties of the gel (JSON), instead of options")
+    add(
+        "--material",
+        action="append",
+        metavar="FILE",
+        help="properties of the gel (JSON), instead of options; of several gels once for all, or "
+        "again for each, as the options of the material",
+    )
+    add(
+        "--by",
+        metavar="COLUMN",
+        help="column of the table that names the gel of each row, where it is of several",
+    )
     add(
         "--shear-modulus",
+        action="append",
         type=measured(STRESS),
         metavar="MU",
         help="shear modulus mu, with its standard error if you know it: 685+-30Pa",
     )
     add(
         "--youngs-modulus",
+        action="append",
         type=measured(STRESS),
         metavar="E",
         help="Young's modulus, instead of mu = E/3 of what does not change its volume",
@@ -119,7 +143,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         help="standard error of every force where only that is known: 5%%",
     )
     add("--verbose", action="store_true", help="print every table, not only the answer")
-    add_friction_and_stiffening(command, friction=None, stiffening=None)
+    add_friction_and_stiffening(command, friction=None, stiffening=None, action="append")
     add(
         "--pure-shear-toughness",
         type=quantity(TOUGHNESS),
@@ -144,15 +168,25 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     )
     add_fact_options(command, quantity)
     add("--plot", metavar="PICTURE", help="draw force against radius (.png, .pdf, .svg)")
-    add("--csv", metavar="TABLE", help="write the fitted line and its band")
-    add_table_options(command)
+    add(
+        "--csv",
+        metavar="TABLE",
+        help="write the fitted line and its band; of several gels one row of results for each",
+    )
+    add_table_options(command, thickness="append")
     add_record_options(command)
 
 
-def add_table_options(command: argparse.ArgumentParser) -> None:
+def add_table_options(command: argparse.ArgumentParser, thickness: str = "store") -> None:
     """Add what a table may leave open."""
     add = command.add_argument
-    add("--thickness", type=quantity(LENGTH), metavar="T", help="of the sample, for forces in N")
+    add(
+        "--thickness",
+        action=thickness,
+        type=quantity(LENGTH),
+        metavar="T",
+        help="of the sample, for forces in N",
+    )
     add("--decimal", metavar="SIGN", help="decimal sign of FILE: . or ,")
     add("--delimiter", metavar="SIGN", help="what separates columns: , ; tab | or blank")
     add("--encoding", metavar="NAME", help="encoding of FILE, such as utf-16")
@@ -161,14 +195,15 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
 _OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "columns")
 
 
-def _outputs(options: argparse.Namespace) -> dict[str, str | None]:
+def outputs_of(options: argparse.Namespace) -> dict[str, str | None]:
+    """Return the files to write by the options that name them."""
     return {"--plot": options.plot, "--csv": options.csv}
 
 
-def _measurements(options: argparse.Namespace, file: str) -> Measurements:
+def measurements_by_options(options: argparse.Namespace, file: str) -> Measurements:
     """Return the forces of a table or, of a folder, those of its records."""
     if os.path.isdir(file):
-        return measurements_of(cuts_by_options(options, [file], _outputs(options))[0])
+        return measurements_of(cuts_by_options(options, [file], outputs_of(options))[0])
     unused = [name for name in _OF_RECORDS if getattr(options, name) is not None]
     if unused:
         listed = ", ".join({"start": "--from", "end": "--to"}.get(x, f"--{x}") for x in unused)
@@ -179,15 +214,83 @@ def _measurements(options: argparse.Namespace, file: str) -> Measurements:
         decimal=options.decimal,
         delimiter=options.delimiter,
         encoding=options.encoding,
+        by=options.by,
     )
 
 
-def run_identify(options: argparse.Namespace) -> int:
-    file = model_file("paam-wire-cutting.csv") if options.example else options.file
-    check_outputs(_outputs(options), [file, options.material])
-    measurements = _measurements(options, os.fspath(file))
+PER_GEL = (
+    "material",
+    "shear_modulus",
+    "youngs_modulus",
+    "friction_coefficient",
+    "stiffening_exponent",
+    "thickness",
+)
+"""Options that may be given once for all gels, or again for each."""
+
+
+def of_gel(options: argparse.Namespace, gel: int, gels: int) -> argparse.Namespace:
+    """Return the options of one gel of several.
+
+    Raises
+    ------
+    InputError
+        If an option is given neither once nor once for each gel.
+    """
+    one = argparse.Namespace(**vars(options))
+    for name in PER_GEL:
+        values = getattr(options, name)
+        if values is None:
+            continue
+        if len(values) not in (1, gels):
+            raise InputError(
+                f"--{name.replace('_', '-')} is given {len(values)} times for {gels} "
+                f"gel{'s' if gels > 1 else ''}; give it once"
+                f"{' for all, or for each in their order' if gels > 1 else ''}."
+            )
+        setattr(one, name, values[gel if len(values) > 1 else 0])
+    return one
+
+
+def run_one(options: argparse.Namespace) -> int:
+    """Identify one gel, and return the exit code."""
+    file = model_file("paam-wire-cutting.csv") if options.example else options.file[0]
+    options = of_gel(options, 0, 1)
+    check_outputs(outputs_of(options), [file, options.material])
+    measurements = measurements_by_options(options, os.fspath(file))
     for note in measurements.notes:
         print(f"note: {note}", file=sys.stderr)
+    fit, material = identified(options, measurements)
+    origin = "read from the published line" if options.example else "measured"
+    if options.plot:
+        from surrogate.identification.figure import save_identification
+
+        save_identification(
+            fit,
+            options.plot,
+            pure_shear_toughness=material.pure_shear_toughness,
+            force_label=origin,
+        )
+    if options.csv:
+        from surrogate.identification.curves import write_curve
+
+        write_curve(fit, options.csv)
+    record = {
+        "file": os.path.basename(os.path.normpath(file)),
+        "notes": list(measurements.notes),
+        "forces": origin,
+        "picture": options.plot,
+    }
+    record |= identification_record(fit, material, options.example)
+    record["verbose"] = options.verbose
+    print_record(options, record, identification_text)
+    return DOUBTED if record["objections"] or measurements.warnings else 0
+
+
+def identified(
+    options: argparse.Namespace, measurements: Measurements
+) -> tuple[Identification, Material]:
+    """Return what the forces of one gel say, and its properties."""
     material = _material(options)
     modulus, modulus_std = _modulus(options, material)
     if modulus is None and needs_modulus(options.model, material.friction_coefficient):
@@ -214,31 +317,7 @@ def run_identify(options: argparse.Namespace) -> int:
         confidence=options.confidence,
         **facts(options),
     )
-    origin = "read from the published line" if options.example else "measured"
-    if options.plot:
-        from surrogate.identification.figure import save_identification
-
-        save_identification(
-            fit,
-            options.plot,
-            pure_shear_toughness=material.pure_shear_toughness,
-            force_label=origin,
-        )
-    if options.csv:
-        from surrogate.identification.curves import write_curve
-
-        write_curve(fit, options.csv)
-    name = os.path.basename(os.path.normpath(file))
-    record = {
-        "file": name,
-        "notes": list(measurements.notes),
-        "forces": origin,
-        "picture": options.plot,
-    }
-    record |= identification_record(fit, material, options.example)
-    record["verbose"] = options.verbose
-    print_record(options, record, identification_text)
-    return DOUBTED if record["objections"] or measurements.warnings else 0
+    return fit, material
 
 
 def _material(options: argparse.Namespace) -> Material:

@@ -15,7 +15,14 @@ from surrogate.basics.picture_form import pictures_as
 from surrogate.cli import explore as cli_explore
 from surrogate.cli import export as cli_export
 from surrogate.cli import map as cli_map
-from surrogate.cli.common import print_answer, print_record
+from surrogate.cli.common import (
+    add_diameters_option,
+    add_picture_options,
+    add_single_panel_option,
+    picture_form_of,
+    print_answer,
+    print_record,
+)
 from surrogate.cli.design import add_design_options, run_design
 from surrogate.cli.force import (
     add_force_options,
@@ -24,14 +31,9 @@ from surrogate.cli.force import (
     run_models,
     run_regime,
 )
-from surrogate.cli.identify import add_identify_options, run_identify
+from surrogate.cli.gels import run_identify
+from surrogate.cli.identify import add_identify_options
 from surrogate.cli.language import in_options
-from surrogate.cli.pictures import (
-    add_diameters_option,
-    add_picture_options,
-    add_single_panel_option,
-    picture_form_of,
-)
 from surrogate.cli.steady import add_steady_options, run_steady
 from surrogate.contact.shipped import in_use
 from surrogate.errors import ImplausibleInputWarning, WirecutError
@@ -127,9 +129,14 @@ without any scatter), it comes before them, and the exit code is 3; 0 otherwise,
 input.
 {_UNITS}
 
+Several files, or one table with a column that names the gel (--by), are gels beside each other: one
+row of results each, one figure, and which of them differ. Options of the material are given once
+for all, or again for each gel in their order.
+
 examples:
   wirecut identify --example
   wirecut identify cuts.csv --shear-modulus 685Pa --friction-coefficient 0.05
+  wirecut identify soft.csv stiff.csv --shear-modulus 685Pa --shear-modulus 2kPa --plot gels.pdf
 """,
     "design": f"""\
 From a guess of the material, or from an earlier result, the wires are chosen from which identify

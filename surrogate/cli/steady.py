@@ -5,11 +5,20 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surrogate.basics.figures import picture_file
+from surrogate.basics.figures import (
+    GREY,
+    RED,
+    SMALL,
+    WIDTHS,
+    in_style,
+    new_figure,
+    picture_file,
+    save_figure,
+)
 from surrogate.basics.files import check_outputs, write_csv
 from surrogate.basics.records import number, table
 from surrogate.cli.common import DOUBTED, Record, print_record, quantity, share
@@ -17,6 +26,9 @@ from surrogate.errors import InputError
 from surrogate.reading.cuts import Cut, cuts_of, measurements_of, record_files
 from surrogate.reading.units import FORCE, LENGTH, SPEED
 from surrogate.reading.wires import Wire, wires_by_name, wires_by_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["add_record_options", "add_steady_options", "cuts_by_options", "run_steady"]
 
@@ -109,9 +121,7 @@ def run_steady(options: argparse.Namespace) -> int:
     if options.out:
         _write(cuts, options.out)
     if options.plot:
-        from surrogate.cli.steady_figure import save_steady
-
-        save_steady(cuts, options.plot)
+        _save_picture(cuts, options.plot)
     record = {
         "cuts": [_row(cut) for cut in cuts],
         "not_steady": [cut.reason for cut in cuts if cut.reason],
@@ -246,3 +256,40 @@ def _notes(rows: list[Record]) -> list[str]:
         for note in row["notes"]:
             count[note] = count.get(note, 0) + 1
     return [f"Note: {note}" + (f" ({n} records)" if n > 1 else "") for note, n in count.items()]
+
+
+_COLUMNS, _HEIGHT = 4, 1.45
+
+
+@in_style
+def _save_picture(cuts: Sequence[Cut], file: str) -> None:
+    """Draw the force over the displacement of every record that could be read."""
+    shown = [cut for cut in cuts if cut.record is not None]
+    columns = min(_COLUMNS, len(shown))
+    rows = -(-len(shown) // columns)
+    width = WIDTHS["double"] if columns > 2 else WIDTHS["single"]
+    figure = new_figure((width, 0.5 + _HEIGHT * rows))
+    for place, cut in enumerate(shown):
+        ax = figure.add_subplot(rows, columns, place + 1)
+        _draw(ax, cut)
+        if place % columns == 0:
+            ax.set_ylabel("force [N]", fontsize=SMALL)
+        if place >= len(shown) - columns:
+            ax.set_xlabel("displacement [mm]", fontsize=SMALL)
+    save_figure(figure, file)
+
+
+def _draw(ax: Axes, cut: Cut) -> None:
+    record, steady = cut.record, cut.steady
+    assert record is not None
+    net = record.force - (steady.offset + steady.tare if steady else 0.0)
+    ax.plot(1e3 * record.displacement, net, color=GREY, linewidth=0.6)
+    if steady is not None:
+        ends = 1e3 * np.array([steady.start, steady.end])
+        ax.plot(ends, [steady.mean] * 2, color=RED, linewidth=1.4)
+        ax.axvspan(*ends, color=RED, alpha=0.08, linewidth=0.0)
+    name = os.path.splitext(os.path.basename(cut.file))[0]
+    if cut.specimen > 1:
+        name += f", {cut.specimen}"
+    ax.set_title(name if steady else f"{name}: not steady", fontsize=SMALL)
+    ax.tick_params(labelsize=SMALL)

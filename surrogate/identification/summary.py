@@ -23,6 +23,7 @@ __all__ = [
     "brief",
     "budget",
     "is_answer",
+    "quantity_ranges",
     "rests_on",
     "summary",
 ]
@@ -67,6 +68,19 @@ def answer(fit: Estimate) -> str:
 
 
 def _quantities(fit: Estimate) -> Iterator[str]:
+    for symbol, unit, words in quantity_ranges(fit):
+        yield f"{symbol} {words} {unit}"
+
+
+def quantity_ranges(fit: Estimate) -> Iterator[tuple[str, str, str]]:
+    """Yield symbol, unit and range in words of both quantities.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> next(quantity_ranges(identify([1e-4, 2e-4, 4e-4], [4.7, 7.9, 13.8], model="eq13")))
+    ('Gamma_o', 'J/m2', '= 1.67 (1.00 to 2.33)')
+    """
     several = fit.profile is not None and sum(mode.admitted for mode in fit.profile.modes) > 1
     for symbol, unit, scale, value, interval, limits in (
         ("Gamma_o", "J/m2", 1.0, fit.toughness, fit.toughness_interval, fit.toughness_limited_by),
@@ -82,7 +96,7 @@ def _quantities(fit: Estimate) -> Iterator[str]:
         low, high = (scale * end for end in interval)
         if not fit.has_scatter and "given" not in limits:
             limits = ("unknown", "unknown")
-        yield f"{symbol} {_range(scale * value, low, high, limits, several)} {unit}"
+        yield symbol, unit, _range(scale * value, low, high, limits, several)
 
 
 def _range(value: float, low: float, high: float, limits: tuple[str, str], several: bool) -> str:

@@ -7,7 +7,14 @@ from statistics import NormalDist
 
 import numpy as np
 
-__all__ = ["chi_squared_limit", "exceeds_f", "normal_quantile", "student_quantile"]
+__all__ = [
+    "chi_squared_limit",
+    "exceeds_f",
+    "normal_quantile",
+    "student_limit",
+    "student_quantile",
+    "student_tail",
+]
 
 _LARGEST_SUMMED = 1000
 """Degrees of freedom up to which the finite sum is used; a series in 1/dof above."""
@@ -140,3 +147,72 @@ def exceeds_f(ratio: float, dofs: tuple[int, int], probability: float) -> bool:
     root = ratio ** (1.0 / 3.0)
     z = ((1.0 - below) * root - (1.0 - above)) / math.sqrt(below * root**2 + above)
     return bool(z > normal_quantile(1.0 - 2.0 * probability))
+
+
+def student_tail(t: float, dof: float) -> float:
+    """Probability that Student's t is beyond t on either side, for any degrees of freedom.
+
+    Parameters
+    ----------
+    t : float
+        0 or more [-].
+    dof : float
+        Degrees of freedom above 0; infinite for the normal distribution.
+
+    References
+    ----------
+    M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 26.5.8, 26.7.1.
+
+    Examples
+    --------
+    >>> print(f"{student_tail(3.182446, 3.0):.6f} {student_tail(1.959964, math.inf):.6f}")
+    0.050000 0.050000
+    """
+    if math.isinf(dof):
+        return math.erfc(t / math.sqrt(2.0))
+    x = dof / (dof + t * t)
+    return _beta_share(x, 0.5 * dof, 0.5)
+
+
+def student_limit(confidence: float, dof: float) -> float:
+    """Half width, in standard errors, that Student's t is within, for any degrees of freedom.
+
+    Examples
+    --------
+    >>> print(f"{student_limit(0.95, 3.0):.6f} {student_limit(0.95, math.inf):.6f}")
+    3.182446 1.959964
+    """
+    if math.isinf(dof):
+        return normal_quantile(confidence)
+    low, high = 0.0, 1.0
+    while student_tail(high, dof) > 1.0 - confidence and high < 1e150:
+        low, high = high, 2.0 * high
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        if student_tail(middle, dof) > 1.0 - confidence:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _beta_share(x: float, a: float, b: float) -> float:
+    """Return the regularised incomplete beta function, by its continued fraction."""
+    if not 0.0 < x < 1.0:
+        return min(max(x, 0.0), 1.0)
+    if x > (a + 1.0) / (a + b + 2.0):
+        return 1.0 - _beta_share(1.0 - x, b, a)
+    front = math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b)
+    front += a * math.log(x) + b * math.log1p(-x)
+    c, d = 1.0, 1.0 / (1.0 - (a + b) * x / (a + 1.0))
+    total = d
+    for m in range(1, 500):  # Lentz's method: an even and an odd step at a time
+        for step in (
+            m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m)),
+            -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0)),
+        ):
+            d, c = 1.0 / (1.0 + step * d), 1.0 + step / c
+            total *= c * d
+        if abs(c * d - 1.0) < 1e-15:
+            break
+    return math.exp(front) * total / a

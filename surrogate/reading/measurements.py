@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.checks import SMALLEST, Quantity, one_number
+from surrogate.basics.checks import SMALLEST, Quantity, one_number, text
 from surrogate.errors import InputError
 from surrogate.reading import plausibility
 from surrogate.reading.headings import Heading
@@ -41,6 +41,8 @@ class Measurements:
         Name of the sample that each was measured on, where the table has such a column.
     notes : tuple of str
         What of the table was not used or how it was taken, in words.
+    gels : tuple of str, length n, or None
+        Name of the gel that each is of, where a column was named that tells it.
 
     Examples
     --------
@@ -54,6 +56,29 @@ class Measurements:
     force_std: NDArray[np.float64] | None = None
     samples: tuple[str, ...] | None = None
     notes: tuple[str, ...] = ()
+    gels: tuple[str, ...] | None = None
+
+    def of_each_gel(self) -> dict[str, Measurements]:
+        """Return the measurements of each gel by its name, in the order of the table.
+
+        Examples
+        --------
+        >>> cuts = Measurements(np.array([1e-4, 4e-4]), np.array([4.7, 13.9]), gels=("B", "A"))
+        >>> {name: gel.force.tolist() for name, gel in cuts.of_each_gel().items()}
+        {'B': [4.7], 'A': [13.9]}
+        """
+        names = self.gels or ("",) * self.force.size
+        apart = {}
+        for name in dict.fromkeys(names):
+            of = np.array([each == name for each in names])
+            rows = np.flatnonzero(of).tolist()
+            apart[name] = Measurements(
+                self.wire_radius[of],
+                self.force[of],
+                None if self.force_std is None else self.force_std[of],
+                None if self.samples is None else tuple(self.samples[i] for i in rows),
+            )
+        return apart
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -71,6 +96,7 @@ def read_measurements(
     decimal: str | None = None,
     delimiter: str | None = None,
     encoding: str | None = None,
+    by: str | None = None,
 ) -> Measurements:
     """Read a table of measurements from a text file, a spreadsheet or a data frame.
 
@@ -94,6 +120,9 @@ def read_measurements(
         Thickness of the sample [m], where forces are not divided by it and no column has it.
     decimal, delimiter, encoding : str, optional
         Those of a text file; by default they are read off it.
+    by : str, optional
+        Name of the column that names the gel of each row, where a table is of several; see
+        `Measurements.of_each_gel`.
 
     Returns
     -------
@@ -117,8 +146,10 @@ def read_measurements(
     """
     if thickness is not None:
         thickness = one_number(THICKNESS, thickness)
+    if by is not None:
+        text("by", by, "give the name of the column that names the gels")
     sheets = read_sheets(path, encoding, delimiter, decimal)
-    return _measurements(*find_table(_with_table(sheets)), thickness)
+    return _measurements(*find_table(_with_table(sheets), by), thickness)
 
 
 def _with_table(sheets: list[Sheet]) -> Sheet:
@@ -135,17 +166,22 @@ def _measurements(sheet: Sheet, table: Table, thickness: float | None) -> Measur
             f"{sheet.place(table.header)} is a header without measurements; "
             f"write one line a wire{'; ' + reader.skipped[0] if reader.skipped else ''}."
         )
-    radius, force, std, samples = zip(*lines, strict=True)
+    radius, force, std, samples, gels = zip(*lines, strict=True)
     different = tuple(dict.fromkeys(samples))
     notes = [*table.notes, *reader.skipped]
     if table.sample is not None and len(different) > 1:
-        notes.append(f"{sheet.file}: {len(different)} samples together: {', '.join(different)}")
+        column = table.header.cells[table.sample]
+        notes.append(
+            f"{sheet.file}: {len(different)} samples of one gel together: {', '.join(different)}; "
+            f"where each is a gel of its own, say so by --by {column!r}"
+        )
     return Measurements(
         np.array(radius),
         np.array(force),
         np.array(std) if reader.std else None,
         samples if table.sample is not None else None,
         tuple(notes),
+        gels if table.gel is not None else None,
     )
 
 
@@ -177,8 +213,8 @@ class _Reader:
             unused = ", ".join(map(str, columns["force"]))
             table.notes.append(f"{sheet.file}: not used beside force per thickness: {unused}")
 
-    def lines(self, row: Row) -> Iterator[tuple[float, float, float, str]]:
-        """Yield radius, force, its standard error and the sample of each force in a row."""
+    def lines(self, row: Row) -> Iterator[tuple[float, float, float, str, str]]:
+        """Yield radius, force, its standard error, sample and gel of each force in a row."""
         row = self._whole(row)
         if not any(row.cells[one.number - 1] for one in (self.wire, *self.forces)):
             self._skip(row, self.wire, "has neither a wire nor a force")
@@ -195,7 +231,19 @@ class _Reader:
                 self._skip(row, gap, "is empty")
             else:
                 self._compare(row, force)
-                yield radius, force, std, sample
+                yield radius, force, std, sample, self._gel(row)
+
+    def _gel(self, row: Row) -> str:
+        if self.table.gel is None:
+            return ""
+        name = row.cells[self.table.gel].strip()
+        if not name:
+            raise InputError(
+                f"{self.sheet.place(row)}, column {self.table.gel + 1} "
+                f"({self.table.header.cells[self.table.gel]}) is empty; write the name of the gel "
+                "in each line (merged cells have it in their first alone)."
+            )
+        return name
 
     def _standard_error(self, row: Row) -> float | None:
         assert self.std is not None

@@ -122,8 +122,9 @@ class Table:
         Number of columns.
     thickness : (float, str) or None
         That of the sample [m] and where it stands, above the header.
-    sample, count : int or None
-        Indices of the columns that name samples, and that count what a standard deviation is of.
+    sample, count, gel : int or None
+        Indices of the columns that name samples, that count what a standard deviation is of, and
+        that name gels where a column was asked for.
     notes : list of str
         What is not used.
     """
@@ -135,6 +136,7 @@ class Table:
     thickness: tuple[float, str] | None
     sample: int | None
     count: int | None = None
+    gel: int | None = None
     notes: list[str] = field(default_factory=list)
 
 
@@ -148,13 +150,20 @@ def has_table(sheet: Sheet) -> bool:
     )
 
 
-def find_table(sheet: Sheet) -> tuple[Sheet, Table]:
+def find_table(sheet: Sheet, by: str | None = None) -> tuple[Sheet, Table]:
     """Return the table of measurements in a sheet, which it may turn by a quarter.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        What was read.
+    by : str, optional
+        Name of the column that names the gel of each row.
 
     Raises
     ------
     InputError
-        If it has no wire or no force, or one of them twice or without a unit.
+        If it has no wire or no force, or one of them twice or without a unit, or no column `by`.
     """
     if not sheet.rows:
         raise InputError(
@@ -171,15 +180,18 @@ def find_table(sheet: Sheet) -> tuple[Sheet, Table]:
     summary = [row for row in body if _sums_up(row)]
     header, units, body = _tidied(header, units, [row for row in body if row not in summary])
     listed = headings(sheet, header, _WORDS, units)
-    sample = next((one.number - 1 for one in listed if plain(one.name) in _SAMPLE), None)
+    gel = None if by is None else _named(sheet, header, listed, by)
+    named = [one.number - 1 for one in listed if plain(one.name) in _SAMPLE]
+    sample = next((index for index in named if index != gel), None)
     before = thickness_before(sheet, sheet.rows[:start])
-    table = Table(header, _by_quantity(sheet, header, listed), body, len(listed), before, sample)
+    columns = _by_quantity(sheet, header, listed)
+    table = Table(header, columns, body, len(listed), before, sample, gel=gel)
     table.notes.extend(sheet.notes)
     if summary:
         lines = ", ".join(f"{row.line} ({next(filter(None, row.cells))})" for row in summary)
         table.notes.append(f"{sheet.file}: sums up and not read: {sheet.line} {lines}")
     table = replace(table, count=_count(table, listed))
-    besides = (table.sample, table.count)
+    besides = (table.sample, table.count, table.gel)
     unknown = [one for one in listed if not one.quantity and one.number - 1 not in besides]
     names = [str(one) for one in unknown if one.name or _filled(one, body)]
     _check_columns(sheet, table, names)
@@ -187,6 +199,18 @@ def find_table(sheet: Sheet) -> tuple[Sheet, Table]:
     if names:
         table.notes.append(f"{sheet.file}: not used: {', '.join(names)}")
     return sheet, table
+
+
+def _named(sheet: Sheet, header: Row, listed: list[Heading], name: str) -> int:
+    """Return the index of the column of a name."""
+    for one in listed:
+        if plain(one.name) == plain(name):
+            return one.number - 1
+    names = ", ".join(one.name for one in listed if one.name)
+    raise InputError(
+        f"{sheet.place(header)} has no column {name!r}; name one of {names} by --by (by= in "
+        "Python), or leave it out where the table is of one gel."
+    )
 
 
 def _is_of_steady(column: str) -> bool:

@@ -36,7 +36,8 @@ def test_examples_of_the_help_work(command, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = help_text(command, capsys)
     if table := re.search(r"for instance (\S+):\n\n((?:  \S+\n)+)", text):
-        (tmp_path / table[1]).write_text(table[2].replace("  ", ""))
+        for name in (table[1], "soft.csv", "stiff.csv"):
+            (tmp_path / name).write_text(table[2].replace("  ", ""))
     (tmp_path / "cuts").mkdir()
     for diameter, force in ((0.2, 0.094), (0.4, 0.158), (0.8, 0.276)):
         rows = [f"{0.1 * i:.1f},{force * min(i / 50, 1) + 0.001 * (i % 3):.4f}" for i in range(200)]

@@ -185,7 +185,8 @@ def test_what_is_not_used_is_named(read):
     same(cuts)
     assert cuts.samples == ("A", "A", "B", "B")
     assert "not used: column 4 (remark)" in cuts.notes[0]
-    assert "2 samples together: A, B" in cuts.notes[1]
+    assert "2 samples of one gel together: A, B; where each is a gel of its own" in cuts.notes[1]
+    assert cuts.notes[1].endswith("say so by --by 'gel'")
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from .sound import ALIASES, ARRAYS, BASE, CHOICES, FORCES, OWN, RADII, SCENE, ST
 
 __all__ = ["SCENE", "Case", "cases", "model_names"]
 
-DRAWN = ("plot_force", "plot_identification", "plot_regime_map")
+DRAWN = ("plot_force", "plot_gels", "plot_identification", "plot_regime_map")
 AUTOMATIC = (
     *("cutting_force", "dissipative_force", "force_gradient", "propagate"),
     *("identify", "transition_radius", "classify"),
@@ -114,6 +114,10 @@ def _sound(name, parameters):
 def _made():
     return {
         "identification": surrogate.identify(RADII, FORCES, 685.0, force_std=STD),
+        "identifications": {
+            name: surrogate.identify(RADII, FORCES, 685.0, force_std=std, model="eq13")
+            for name, std in (("A", STD), ("B", 0.3))
+        },
         "made": surrogate.regime_map("R_w", "Gamma_o", BASE["ranges"], BASE["fixed"], nodes=5),
     }
 

@@ -75,7 +75,7 @@ OWN = {
     },
     "read_measurements": {
         "path": str(model_file("paam-wire-cutting.csv")),
-        **dict.fromkeys(("thickness", "decimal", "delimiter", "encoding")),
+        **dict.fromkeys(("thickness", "decimal", "delimiter", "encoding", "by")),
     },
     "read_record": {
         "path": str(RECORD),
@@ -98,6 +98,7 @@ OWN = {
     "write_explorer": {
         **{"file": str(RECORD.with_name("explorer.html")), "cuts": None, "diameters": False},
     },
+    "plot_gels": {"ax": None},
     "prepare": {
         **{"fixed": Scene(**SCENE), "varying": ("wire_radius",), "rtol": None},
         "ranges": {"wire_radius": (1e-4, 1e-3)},
@@ -148,6 +149,8 @@ ALIASES = {
     "steady_force": ("record", "displacement", "force", "range", "plateau"),
     "read_material": ("file",),
     "plot_force": ("force", "dimensionless"),
+    "compare_gels": ("gels",),
+    "plot_gels": ("gels",),
     "prepare": ("fixed", "range", "model must be one that a force can be prepared by"),
     "plot_regime_map": ("map", "points", "limit", "width"),
     "plot_identification": ("identification",),

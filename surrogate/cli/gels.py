@@ -1,0 +1,245 @@
+"""`wirecut identify`: one gel, or several beside each other with which of them differ."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from textwrap import fill
+from typing import Any
+
+from surrogate.basics.files import check_outputs, write_csv
+from surrogate.basics.records import table
+from surrogate.cli.common import DOUBTED, Record, print_record
+from surrogate.cli.identification_text import identification_record, identification_text
+from surrogate.cli.identify import (
+    identified,
+    measurements_by_options,
+    of_gel,
+    outputs_of,
+    run_one,
+)
+from surrogate.comparing.difference import Difference
+from surrogate.comparing.gels import Comparison, GelPair, compare_gels
+from surrogate.errors import InputError
+from surrogate.identification.fit import Identification
+from surrogate.identification.summary import quantity_ranges
+from surrogate.reading.measurements import Measurements
+from surrogate.version import __version__
+
+__all__ = ["run_identify"]
+
+
+@dataclass(frozen=True, eq=False)
+class _Gel:
+    """One of several gels: where its forces are from, what they say, and all that is told of it."""
+
+    file: str
+    measurements: Measurements
+    fit: Identification
+    record: Record
+
+
+def run_identify(options: argparse.Namespace) -> int:
+    """Identify one gel or several, print what they say, and return the exit code."""
+    if options.example and (options.by or options.file):
+        raise InputError("--example is one gel of its own; leave out --by and FILE.")
+    if len(options.file) < 2 and not options.by:
+        return run_one(options)
+    check_outputs(outputs_of(options), [*options.file, *(options.material or [])])
+    gels = _gels(options)
+    comparison = compare_gels({name: gel.fit for name, gel in gels.items()}, options.confidence)
+    if options.plot:
+        from surrogate.comparing.figure import save_gels
+
+        save_gels(comparison.gels, options.plot)
+    if options.csv:
+        _write(gels, options.csv)
+    record = {
+        "version": __version__,
+        "confidence": options.confidence,
+        "model": str(next(iter(gels.values())).fit.model),
+        "gels": {name: gel.record for name, gel in gels.items()},
+        "comparisons": [_pair_record(pair, comparison) for pair in comparison.pairs],
+        "comparisons_rest_on": list(comparison.rests_on),
+        "written": [file for file in (options.plot, options.csv) if file],
+    }
+    print_record(options, record, lambda told: _text(told, gels, options.verbose))
+    doubted = any(gel.record["objections"] or gel.measurements.warnings for gel in gels.values())
+    return DOUBTED if doubted else 0
+
+
+def _gels(options: argparse.Namespace) -> dict[str, _Gel]:
+    """Return every gel by its name, in the order of the files and tables."""
+    read = list(_tables(options))
+    names = _names([(name, file) for name, file, _ in read])
+    gels = {}
+    for number, (name, (_, file, measurements)) in enumerate(zip(names, read, strict=True)):
+        try:
+            fit, material = identified(of_gel(options, number, len(read)), measurements)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+        record = {
+            "file": os.path.basename(os.path.normpath(file)),
+            "notes": list(measurements.notes),
+            "forces": "measured",
+            "picture": None,
+            "verbose": True,
+            **identification_record(fit, material),
+        }
+        gels[name] = _Gel(file, measurements, fit, record)
+    return gels
+
+
+def _tables(options: argparse.Namespace) -> Iterator[tuple[str, str, Measurements]]:
+    """Yield name, file and measurements of each gel."""
+    for place, file in enumerate(options.file):
+        measurements = measurements_by_options(_of_file(options, place), file)
+        for note in measurements.notes:
+            print(f"note: {note}", file=sys.stderr)
+        if options.by:
+            for name, cuts in measurements.of_each_gel().items():
+                yield name, file, replace(cuts, notes=measurements.notes)
+        else:
+            name = os.path.basename(os.path.normpath(file))
+            yield name if os.path.isdir(file) else os.path.splitext(name)[0], file, measurements
+
+
+def _of_file(options: argparse.Namespace, place: int) -> argparse.Namespace:
+    """Return the options by which a file is read."""
+    if not options.by:
+        return of_gel(options, place, len(options.file))
+    if os.path.isdir(options.file[place]):
+        raise InputError(
+            f"--by names a column of a table, but {options.file[place]} is a folder; leave it out."
+        )
+    if len(options.thickness or ()) > 1:
+        raise InputError(
+            "--thickness is given once with --by; give a column thickness_mm where gels differ."
+        )
+    thickness = options.thickness[0] if options.thickness else None
+    return argparse.Namespace(**{**vars(options), "thickness": thickness})
+
+
+def _names(gels: Sequence[tuple[str, str]]) -> list[str]:
+    """Return one name for each gel: with its file where two have the same.
+
+    Raises
+    ------
+    InputError
+        If that does not tell them apart.
+    """
+    count = Counter(name for name, _ in gels)
+    names = [name if count[name] == 1 else f"{name} ({file})" for name, file in gels]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise InputError(f"{twice} is given twice; give each gel once.")
+    return names
+
+
+def _pair_record(pair: GelPair, comparison: Comparison) -> Record:
+    """Return what is told of a pair, null where nothing is to be told."""
+
+    def of(one: Difference | None) -> Record | None:
+        if one is None:
+            return None
+        kept = ("value", "interval", "p", "p_adjusted", "dof")
+        differs = pair.differs(1.0 - comparison.confidence, one.quantity)
+        return {name: getattr(one, name) for name in kept} | {"differs": differs}
+
+    return {
+        "first": pair.first,
+        "second": pair.second,
+        "answer": pair.words(comparison.confidence),
+        "differ": None if pair.objections else pair.differs(1.0 - comparison.confidence),
+        "p": pair.p,
+        "p_adjusted": pair.p_adjusted,
+        "toughness": of(pair.toughness),
+        "wear_strength": of(pair.wear_strength),
+        "objections": list(pair.objections),
+    }
+
+
+def _text(record: Record, gels: Mapping[str, _Gel], verbose: bool) -> str:
+    """Return the results as a table, which gels differ, what is doubted, then all if asked for."""
+    against = [one for name, gel in gels.items() for one in _against(name, gel)]
+    parts = ["\n".join(map(_wrapped, against)), _results(record, gels)]
+    parts.append("\n".join(_wrapped(f"{one['answer']}.") for one in record["comparisons"]))
+    parts.append("\n".join(_wrapped(f"{one}.") for one in record["comparisons_rest_on"]))
+    parts.append("\n".join(_wrapped(one) for name, gel in gels.items() for one in _said(name, gel)))
+    if verbose:
+        parts += [f"{name}\n\n{identification_text(gel.record)}" for name, gel in gels.items()]
+    else:
+        parts.append("--verbose prints all tables of each gel.")
+    if record["written"]:
+        parts.append(f"Written: {', '.join(record['written'])}")
+    return "\n\n".join(part for part in parts if part)
+
+
+def _wrapped(sentence: str) -> str:
+    return fill(sentence, 96, subsequent_indent="  ")
+
+
+def _results(record: Record, gels: Mapping[str, _Gel]) -> str:
+    rows = []
+    for name, gel in gels.items():
+        ranges = [words.removeprefix("= ") for _, _, words in quantity_ranges(gel.fit)]
+        if gel.record["objections"]:
+            ranges = ["not to be used", ""]
+        doubts = len(gel.record["warnings"]) + len(gel.record.get("undecided", ()))
+        rows.append((name, *ranges, str(gel.fit.force.size), str(doubts) if doubts else "none"))
+    percent = f"{100.0 * record['confidence']:.4g} %"
+    header = ("Gel", "Gamma_o [J/m2]", "tau_w [kPa]", "cuts", "doubts")
+    return f"{table(header, rows)}\nWith {percent} intervals, model {record['model']}."
+
+
+def _against(name: str, gel: _Gel) -> Iterator[str]:
+    """Yield what forbids the use of a gel's numbers."""
+    yield from (f"Do not use the numbers of {name}: {one}." for one in gel.record["objections"])
+
+
+def _said(name: str, gel: _Gel) -> Iterator[str]:
+    """Yield what else is doubted or left open of one gel."""
+    objections = gel.record["objections"]
+    for sentence in gel.record["warnings"]:
+        if sentence not in objections:
+            yield f"{name}: warning: {sentence}."
+    yield from (f"{name}: undecided: {sentence}." for sentence in gel.record.get("undecided", ()))
+
+
+def _write(gels: Mapping[str, _Gel], file: str) -> None:
+    """Write one row a gel; of one that should not be used without its numbers."""
+    usable = [not gel.record["objections"] for gel in gels.values()]
+
+    def column(values: Sequence[Any]) -> list[str]:
+        return [
+            f"{value!r}" if use and value is not None and math.isfinite(value) else ""
+            for value, use in zip(values, usable, strict=True)
+        ]
+
+    records = [gel.record for gel in gels.values()]
+    columns: dict[tuple[str, str], Any] = {
+        ("gel", ""): list(gels),
+        ("file", ""): [record["file"] for record in records],
+        ("cuts", ""): [gel.fit.force.size for gel in gels.values()],
+        ("usable", ""): ["yes" if use else "no" for use in usable],
+    }
+    for name, unit in (("toughness", "J/m^2"), ("wear_strength", "Pa")):
+        intervals = [record[f"{name}_interval"] or (math.nan, math.nan) for record in records]
+        columns[name, unit] = column([record[name] for record in records])
+        columns[f"{name}_std", unit] = column([record[f"{name}_std"] for record in records])
+        columns[f"{name}_low", unit] = column([low for low, _ in intervals])
+        columns[f"{name}_high", unit] = column([high for _, high in intervals])
+    for name, unit in (("shear_modulus", "Pa"), ("friction_coefficient", "")):
+        columns[name, unit] = [repr(record[name]) for record in records]
+    columns["doubts", ""] = ["; ".join(record["warnings"]) for record in records]
+    first = next(iter(gels.values())).fit
+    about = [
+        f"several gels by wirecut identify {__version__}, model {first.model}",
+        f"low and high are the ends of {100.0 * first.confidence:.4g} % intervals",
+    ]
+    write_csv(file, columns, about)
