@@ -126,7 +126,7 @@ def _draw(folder: Path) -> int:
     from surrogate.coupling.shipped import amplification
 
     campaign = load_campaign()
-    draw_pictures(read_coupled(folder_in_use() / DATA), amplification(), campaign, folder)
+    draw_pictures(read_coupled(Path(folder_in_use()) / DATA), amplification(), campaign, folder)
     sys.stdout.write("".join(f"{folder / name}.png\n" for name in PICTURES))
     return 0
 
