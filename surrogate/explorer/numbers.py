@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -104,7 +105,7 @@ def _bounds(bounds: Bounds, name: str) -> dict[str, Any]:
 
 def _of_coupled(known: Candidates) -> dict[str, Any]:
     """Return kappa of the models in use; nothing where they have none."""
-    if SLIP not in _laws_of(known) or not (folder_in_use() / AMPLIFICATION_FILE).is_file():
+    if SLIP not in _laws_of(known) or not Path(folder_in_use(), AMPLIFICATION_FILE).is_file():
         return {}
     kappa = amplification()
     reach, places = np.unique(kappa.reach, return_inverse=True)  # few loads were tried

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -58,7 +59,7 @@ def test_the_law_of_coupled_solutions_is_shown_if_the_models_have_it(tmp_path, m
     assert main(command) == 0
     assert start_of(file)["law"] == "coupled"
     for name in (FILE, f"{FILE}.sha256"):
-        shutil.copy(folder_in_use() / name, tmp_path / name)
+        shutil.copy(Path(folder_in_use(), name), tmp_path / name)
     monkeypatch.setenv(VARIABLE, str(tmp_path))
     capsys.readouterr()
     assert main(command) == 2

@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -72,7 +73,7 @@ def test_kappa_is_written_to_the_last_digit():
 
 def test_models_without_kappa_make_a_page_without_its_law(tmp_path):
     for name in (FILE, f"{FILE}.sha256"):
-        shutil.copy(folder_in_use() / name, tmp_path / name)
+        shutil.copy(Path(folder_in_use(), name), tmp_path / name)
     with in_use(tmp_path / FILE):
         page = explorer_page()
         with pytest.raises(InputError, match=AMPLIFICATION_FILE):
