@@ -26,7 +26,7 @@ from fe_training.validation.model_errors import (
 )
 from surrogate.contact.coordinates import QUANTITIES
 from surrogate.contact.process import ProcessModel
-from surrogate.contact.shipped import Fitted
+from surrogate.contact.shipped import Fitted, shipped
 
 OFF_GRID = "off-grid.h5"
 #: Without points off the grid, every third alpha is left out, but not the ends.
@@ -69,6 +69,7 @@ def split(models: Path) -> Split:
     file = models / OFF_GRID
     if file.is_file():
         others = points_of(load_campaign(file), single_mesh=True)
+        others = others.taken(shipped().limits.holds(others.g, others.alpha))
         nothing = np.zeros(len(points), bool)
         words = f"{len(others)} finite-element solutions off the grid, which no model has seen"
         return Split(points, others, nothing, words)

@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_training.campaign.dataset import require_checksum
 from fe_training.campaign.store import write_atomically
 from fe_training.coupled.design import CoupledDesign
 from fe_training.coupled.store import CoupledStore
 from fe_training.sliding.record import SlidingOutcome, SlidingRecord
-from surrogate.basics.files import file_name
+from surrogate.basics.files import checksum_line, file_name
 from surrogate.errors import InputError
 
 _SCHEMA = "wirecut-coupled-data-1"
@@ -190,7 +191,10 @@ def _column(values: list[Any]) -> NDArray[Any]:
 
 
 def write_coupled(data: CoupledData, path: str | os.PathLike[str]) -> None:
-    """Write the rows to an HDF5 file, whole or not at all; the same rows make the same bytes."""
+    """Write the rows to an HDF5 file, whole or not at all, and its checksum beside it.
+
+    The same rows make the same bytes.
+    """
     import h5py
 
     with TemporaryDirectory() as folder:
@@ -209,7 +213,10 @@ def write_coupled(data: CoupledData, path: str | os.PathLike[str]) -> None:
                     track_times=False,
                 )
                 column.attrs.update({"unit": unit, "description": description})
-        write_atomically(Path(path), draft.read_bytes())
+        content = draft.read_bytes()
+    name = os.path.basename(os.fspath(path))
+    write_atomically(Path(path), content)
+    write_atomically(Path(f"{os.fspath(path)}.sha256"), checksum_line(name, content))
 
 
 def read_coupled(path: str | os.PathLike[str]) -> CoupledData:
@@ -218,10 +225,11 @@ def read_coupled(path: str | os.PathLike[str]) -> CoupledData:
     Raises
     ------
     InputError
-        If the file cannot be read or is no such data set.
+        If the file cannot be read, is not what its checksum says, or is no such data set.
     """
     import h5py
 
+    require_checksum(Path(path))
     try:
         with h5py.File(path, "r") as file:
             attributes = {name: str(value) for name, value in file.attrs.items()}

@@ -181,7 +181,9 @@ def read_archive(content: bytes) -> dict[str, NDArray[Any]]:
     """
     try:
         return {
-            name.removesuffix(".npy"): np.lib.format.read_array(io.BytesIO(member))
+            name.removesuffix(".npy"): np.lib.format.read_array(
+                io.BytesIO(member), allow_pickle=False
+            )
             for name, member in _members(content)
         }
     except Exception as error:  # numpy raises a dozen kinds, tokenize's among them

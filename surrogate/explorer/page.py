@@ -90,6 +90,8 @@ def write_explorer(
     ('explorer.html', '<!doctype html>')
     """
     name = file_name(file)
+    if not name:
+        raise InputError("file must name a file, but is empty; give for instance 'explorer.html'.")
     content = explorer_page(scene, cuts, law=law, diameters=diameters).encode()
     with written_whole(name) as temporary:
         Path(temporary).write_bytes(content)

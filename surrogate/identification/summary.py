@@ -79,7 +79,7 @@ def quantity_ranges(fit: Estimate) -> Iterator[tuple[str, str, str]]:
     --------
     >>> from surrogate.identification.fit import identify
     >>> next(quantity_ranges(identify([1e-4, 2e-4, 4e-4], [4.7, 7.9, 13.8], model="eq13")))
-    ('Gamma_o', 'J/m2', '= 1.67 (1.00 to 2.33)')
+    ('Gamma_o', 'J/m2', '= 1.7 (-0.3 to 3.8)')
     """
     several = fit.profile is not None and sum(mode.admitted for mode in fit.profile.modes) > 1
     for symbol, unit, scale, value, interval, limits in (

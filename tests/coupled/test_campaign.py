@@ -14,6 +14,7 @@ from fe_training.coupled.run import again, run_base, waiting
 from fe_training.coupled.store import CoupledStore
 from fe_training.sliding.record import SlidingOutcome, SlidingRecord
 from fe_training.solver.cut import Settings
+from surrogate.basics.files import checksum_line
 from surrogate.errors import InputError
 
 SHIPPED = Path(__file__).resolve().parents[2] / "models" / "coupled.toml"
@@ -177,6 +178,8 @@ def test_a_file_that_is_no_data_set_is_refused(tmp_path):
         read_coupled(path)
     with h5py.File(path, "w") as file:
         file.attrs["schema"] = "another"
+    digest = checksum_line(path.name, path.read_bytes())
+    path.with_name("other.h5.sha256").write_bytes(digest)
     with pytest.raises(InputError, match="no data set"):
         read_coupled(path)
 

@@ -28,7 +28,10 @@ def unseen(kappa, count=400):
     xi = reach * LARGEST[0] * np.minimum(1.0, 2.0 * (1.0 - direction))
     wear = reach * LARGEST[1] * np.minimum(1.0, 2.0 * direction)
     g = np.exp(x + np.polynomial.polynomial.polyval(y, kappa.touch))
-    return (x, y), (g, np.exp(y), xi, wear)
+    known = g >= kappa.lowest
+    assert known.sum() > 0.5 * count
+    at = g, np.exp(y), xi, wear
+    return (x[known], y[known]), tuple(each[known] for each in at)
 
 
 def test_errors_at_rows_that_no_fit_saw_are_within_its_bounds(kappa):

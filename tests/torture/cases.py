@@ -65,6 +65,10 @@ class Case:
     slow: bool = False
 
 
+OF_ONE_SCENE = ("write_explorer",)
+"""Functions whose scene is of single numbers, and given as it is."""
+
+
 @cache
 def model_names():
     """Return the models that this installation can evaluate."""
@@ -155,12 +159,12 @@ def _case(name, function, parameters, arguments, model):
     slow = searches or name in ("identify", "design_wires", "regime_map", *DRAWN)
     if name == "identify" and model in ("high-toughness", "eq9"):
         return None  # without wear there is nothing to identify
-    if "scene" in parameters:
+    if "scene" in parameters and name not in OF_ONE_SCENE:
         quantities = _quantities(name, model)
 
         def call(**given):
             rest = {k: given.pop(k) for k in list(given) if k not in NAMES}
-            return function(Scene(**{**SCENE, **given}), **rest, **fixed)
+            return function(scene=Scene(**{**SCENE, **given}), **rest, **fixed)
 
         arguments = {**{q: SCENE[q] for q in quantities}, **arguments}
     else:

@@ -16,11 +16,13 @@ import numpy as np
 from fe_training.campaign.dataset import load_campaign, require_checksum
 from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import DamagedRowError, Row, decode_row, encode_row
+from fe_training.coupled.dataset import read_coupled as read_rows
 from fe_training.coupled.design import read_design as read_coupled
 from fe_training.paper.specimen import read_results
 from surrogate import read_material, read_measurements
 from surrogate.basics.files import models_folder
 from surrogate.contact.shipped import fitted_from, read_fitted
+from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification_of
 from surrogate.errors import WirecutError
 
 from .part import Part
@@ -97,9 +99,10 @@ def kinds(folder):
 def _reader(path):
     """Return the function that reads a shipped file, and whether a checksum is beside it."""
     summed = path.with_name(path.name + ".sha256").is_file()
+    made_of = amplification_of if path.name == AMPLIFICATION_FILE else fitted_from
     readers = {
-        ".h5": load_campaign,
-        ".npz": lambda file: fitted_from(*read_fitted(file)),
+        ".h5": read_rows if path.name == "coupled.h5" else load_campaign,
+        ".npz": lambda file: made_of(*read_fitted(file)),
         ".toml": read_coupled if path.name == "coupled.toml" else read_design,
         ".csv": read_measurements,
     }

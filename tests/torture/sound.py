@@ -144,6 +144,8 @@ ALIASES = {
     "regime_map": ("coordinate", "range", "axis", "scale", "fixed", "map", "node", "limit"),
     "propagate": ("uncertain quantities", "correlations", "standard error", "dimensionless"),
     "read_measurements": ("file",),
+    "load_models": ("the fitted models must be read",),
+    "write_explorer": ("scene", "wire", "material", "cannot be written"),
     "read_record": ("file", "record", "specimen", "column"),
     "read_records": ("file", "record", "column"),
     "steady_force": ("record", "displacement", "force", "range", "plateau"),
