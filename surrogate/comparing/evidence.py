@@ -29,6 +29,9 @@ QUANTITIES = ("toughness", "wear_strength")
 ZOOMS, PARTS = 3, 9
 """Each finer by a factor of four, before a parabola through the three lowest values."""
 
+FINE = 0.1
+"""How much a parabola may add where values stand as closely as after the zooms."""
+
 SAMPLES, WEAR_SAMPLES = 801, 61
 """Values at which an interval is looked at."""
 
@@ -293,4 +296,7 @@ def _bottom(heights: Array) -> tuple[float, float]:
     if not 0.0 < bend < np.inf:
         return here, 0.0
     shift = 0.5 * (left - right) / bend
-    return max(here - 0.25 * (left - right) * shift, 0.0), shift
+    less = 0.25 * (left - right) * shift
+    if less > FINE * max(here, 1.0):  # no parabola: a height that is beyond all others beside it
+        return here, 0.0
+    return max(here - less, 0.0), shift

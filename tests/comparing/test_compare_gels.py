@@ -228,3 +228,14 @@ def test_laws_are_not_mixed():
 def test_a_confidence_is_a_probability(confidence):
     with pytest.raises(InputError):
         compare_gels({"a": gel(1), "b": gel(2)}, confidence)
+
+
+def test_gels_far_apart_differ_whatever_their_heights_are_where_the_toughness_vanishes():
+    """There one of them is so high that no parabola runs through it and its neighbours."""
+    radii = np.array([0.35e-3, 0.5e-3, 0.7e-3, 1.05e-3])
+    soft = identify(radii, [13.4, 18.1, 25.2, 36.9], 685.0, force_std=0.5)
+    tough = identify(radii, [169.0, 172.0, 176.0, 180.5], 685.0, force_std=2.0)
+    (found,) = compare_gels({"tough": tough, "soft": soft}).pairs
+    assert found.toughness.p < 1e-6
+    assert found.p < 1e-6
+    assert "differ" in found.words(0.95)
