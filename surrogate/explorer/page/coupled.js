@@ -85,6 +85,7 @@ const KAPPA = (() => {
 
 LAWS.push({
   name: "coupled", title: "coupled", equation: "κ times slip",
+  beside: "on which the wire rubs",
   arc: "slip_arc", load: "slip_load", ...KAPPA,
   says: "the shear on the wire acts on the solid, which raises its own force; known up to loads that "
     + "solutions with friction and wear reach before the tip touches the wire",

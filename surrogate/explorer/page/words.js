@@ -160,9 +160,8 @@ function saysError(law, force) {
     return `How far the number may be off is unknown: ${law.unknown}.`;
   }
   if (force.error === 0) return "The number is exact: without wear and friction the force is Γ_o.";
-  const off = `The number may be off by up to ${percentUp(force.error)} beside finite elements `;
-  return law.name === "coupled" ? `${off}on which the wire rubs.`
-    : `${off}of this law; how far the law itself is off is another matter.`;
+  const beside = law.beside || "of this law; how far the law itself is off is another matter";
+  return `The number may be off by up to ${percentUp(force.error)} beside finite elements ${beside}.`;
 }
 
 // Everything that is said about a state, sentence by sentence.
