@@ -23,8 +23,8 @@ def rounded(value: float, error: float) -> str:
     if decimals is None:
         return number(value)
     if decimals <= 0:
-        return f"{round(value, decimals):.0f}"
-    return f"{value:.{decimals}f}"
+        return f"{round(value, decimals) + 0.0:.0f}"  # no sign of nothing
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 def below_digits(value: float, error: float) -> bool:

@@ -169,6 +169,12 @@ def _measurements(sheet: Sheet, table: Table, thickness: float | None) -> Measur
     radius, force, std, samples, gels = zip(*lines, strict=True)
     different = tuple(dict.fromkeys(samples))
     notes = [*table.notes, *reader.skipped]
+    if table.sample is not None and len(different) > 1 and "" in different:
+        column = f"column {table.sample + 1} ({table.header.cells[table.sample]})"
+        raise InputError(
+            f"{sheet.file}, {column} is empty in some lines; write the name of the sample in each "
+            "(merged cells have it in their first alone), or in none."
+        )
     if table.sample is not None and len(different) > 1:
         column = table.header.cells[table.sample]
         notes.append(

@@ -340,5 +340,6 @@ def _check_columns(sheet: Sheet, table: Table, unknown: list[str]) -> None:
         raise InputError(
             f"{place} names no force_per_thickness_<unit>{others}; divide the steady force by the "
             "sample's thickness and give it in one of the units N_per_m, mN_per_mm, J_per_m2, or "
-            "give force_<unit> and thickness_<unit>."
+            "give force_<unit> and thickness_<unit>; where each column is a gel of its own, write "
+            "one line a cut with the gel's name in a column gel."
         )

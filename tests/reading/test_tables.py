@@ -389,3 +389,22 @@ def test_the_sheet_that_has_the_table(tmp_path):
     cuts = read_measurements(tmp_path / "cuts.xlsx")
     same(cuts)
     assert "sheet 'about' is not read" in cuts.notes[0]
+
+
+def test_merged_cells_are_not_a_sample_without_a_name(tmp_path):
+    file = tmp_path / "cuts.csv"
+    lines = ["gel,d (mm),F/T (N/m)", "A,0.1,2.9", ",0.2,4.7", "B,0.1,4.1", ",0.2,6.0"]
+    file.write_text("\n".join(lines))
+    with pytest.raises(
+        InputError, match=r"column 1 \(gel\) is empty in some lines; write the name"
+    ):
+        read_measurements(file)
+    file.write_text("\n".join(lines).replace("A,", ",").replace("B,", ","))
+    assert len(read_measurements(file).force) == 4
+
+
+def test_a_column_a_gel_is_answered_with_the_form_that_is_read(tmp_path):
+    file = tmp_path / "cuts.csv"
+    file.write_text("d (mm),Gel A (N/m),Gel B (N/m)\n0.1,2.9,4.1\n0.2,4.7,6.0\n")
+    with pytest.raises(InputError, match="where each column is a gel of its own, write one line a"):
+        read_measurements(file)
