@@ -191,14 +191,20 @@ def _of_result(options: argparse.Namespace) -> tuple[Scene, float | None, str]:
             wires, model = record["wires"], str(record["model"])
             shares = [wire["residual"] / wire["force"] for wire in wires]
             pairs = [pair for pair in pairs if None not in pair and min(pair) > 0.0]
-            if "shear_modulus" in record["assumed"]:
-                raise InputError(
-                    f"{options.result}: was identified without a shear modulus; identify with it."
-                )
+            law, assumed = record["law"], record["assumed"]
         except (ValueError, KeyError, TypeError, ZeroDivisionError):
             raise InputError(
                 f"{options.result}: is no result; write one by 'wirecut identify ... --json'."
             ) from None
+    if law != "projected":
+        raise InputError(
+            f"{options.result}: was identified by the law {law!r}, under which no wires are "
+            "designed; identify with --law projected."
+        )
+    if "shear_modulus" in assumed:
+        raise InputError(
+            f"{options.result}: was identified without a shear modulus; identify with it."
+        )
     if not pairs or pairs[0] != (record["toughness"], record["wear_strength"]):
         raise InputError(
             f"{options.result}: its toughness and wear strength are not both above 0; give a guess "

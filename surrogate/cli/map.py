@@ -201,7 +201,7 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     own = drawn_points(options, _fixed(options.fix)) if options.points else []
     made = run_map(options, own)
     points, notes = _points(PRESETS.get(options.preset), made, own)
-    rows = points_record(own, made, made.model)
+    rows = points_record(own, points, made)
     if options.out:
         from surrogate.maps.figure import save_regime_map
 
@@ -222,7 +222,7 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     read = [note for gel in own for note in gel.notes]
     doubted = [f"{gel.file}: {doubt}" for gel in own for doubt in gel.fit.warnings]
     return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | {
-        "notes": [*read, *doubted, *(notes if options.out else [])],
+        "notes": [*read, *doubted, *(notes if options.out or own else [])],
         "points": rows,
         "diameters": options.diameters,
     }
@@ -368,11 +368,19 @@ def _points(
     preset: Preset | None, made: RegimeMap, own: Sequence[Drawn]
 ) -> tuple[list[MapPoints], list[str]]:
     """Return what is to be drawn on a map, and why a preset's experiment does not belong there."""
-    points = [one for gel in own for one in gel.points]
-    for one in points:
-        require_the_same(one, made)
+    points, notes = [], []
+    for gel in own:
+        for mode, one in enumerate(gel.points):
+            try:
+                require_the_same(one, made)
+            except InputError as error:
+                if mode == 0:
+                    raise
+                notes.append(f"another material that fits is left out: {error}")
+            else:
+                points.append(one)
     if own or preset is None or not preset.example:
-        return points, []
+        return points, notes
     points = _example()
     try:
         for one in points:

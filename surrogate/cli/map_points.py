@@ -15,7 +15,6 @@ from surrogate.basics.files import opened
 from surrogate.basics.records import number, table
 from surrogate.choosing.by_name import force_model
 from surrogate.cli.common import Record, wire_rows
-from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.cutting.regimes import classify
 from surrogate.errors import InputError
@@ -125,7 +124,8 @@ def _result(file: str) -> Record | None:
 
 def _common(results: Mapping[str, Record | None], what: str) -> str | None:
     """Return the model or law of the results, which one map has in common."""
-    of = {str(record[what]): file for file, record in results.items() if record}
+    # a model under another law is written with it, as "table, law slip"
+    of = {str(record[what]).partition(",")[0]: file for file, record in results.items() if record}
     if len(of) > 1:
         (one, file), (other, second) = list(of.items())[:2]
         raise InputError(
@@ -262,14 +262,18 @@ def _step(value: float, below: bool) -> float:
     return float(f"{last if below else steps[steps >= value * (1.0 - 1e-9)][0]:.6g}")
 
 
-def points_record(drawn: Sequence[Drawn], made: MapRecord, model: str | ForceModel) -> list[Record]:
-    """Return the places of all points, their standard errors and what dominates there."""
+def points_record(
+    drawn: Sequence[Drawn], shown: Sequence[MapPoints], made: MapRecord
+) -> list[Record]:
+    """Return the places of the points shown, their standard errors and what dominates there."""
     rows = []
     for gel in drawn:
         for points in gel.points:
+            if points not in shown:
+                continue
             centre, error = places(points, made)
             dominant = classify(
-                points.scene, made.regime.threshold, model=model, extrapolate=True
+                points.scene, made.regime.threshold, model=made.model, extrapolate=True
             ).dominant
             rows += [
                 {"points": points.label, "file": gel.file, **row}

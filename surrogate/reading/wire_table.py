@@ -103,7 +103,20 @@ _OF_STEADY = re.compile(
     "peak of force|stick slip drop|(offset|tare) subtracted"
 )
 """Columns of `wirecut steady` that say how a force was taken."""
-_SAMPLE = {"sample", "gel", "specimen", "material", "probe", "batch", "sample id", "charge"}
+_SAMPLE = {
+    *("sample", "gel", "specimen", "material", "probe", "batch", "sample id", "charge", "hydrogel"),
+    *(
+        "echantillon",
+        "eprouvette",
+        "muestra",
+        "campione",
+        "provino",
+        "amostra",
+        "monster",
+        "probka",
+    ),
+    *("试样", "样品", "試料", "試験片", "サンプル"),
+}
 
 
 @dataclass(frozen=True)

@@ -145,3 +145,32 @@ def test_a_result_without_what_it_rests_on_is_not_used(run, lab):
     code, _, err = run("map --points old.json")
     assert code == 2
     assert "old.json: is a result without all that it rests on; write it anew" in err
+
+
+def test_a_result_of_the_other_law_gives_a_map_of_that_law(run, lab):
+    result = run("identify cuts.csv --material gel.json --law slip --json")[1]
+    (lab / "slip.json").write_text(result)
+    made = json.loads(run("map --points slip.json --nodes 11 --json")[1])
+    assert made["model"] == "table, law slip"
+    assert made["points"][0]["y"] == pytest.approx(json.loads(result)["toughness"], rel=1e-9)
+    code, _, err = run("design --result slip.json")
+    assert code == 2
+    assert "was identified by the law 'slip', under which no wires are designed" in err
+
+
+def test_another_material_that_fits_is_left_out_of_a_map_that_is_not_its_own(run, lab):
+    (lab / "two.csv").write_text(
+        "wire_radius_mm,force_per_thickness_N_per_m,force_std_N_per_m\n"
+        "0.1,4.7,0.3\n0.2,7.9,0.3\n0.4,13.9,0.3\n0.5,17.2,0.3\n"
+    )
+    fit = json.loads(run("identify two.csv --shear-modulus 685Pa --json")[1])
+    others = [mode["wear_strength"] for mode in fit["modes"][1:] if mode["admitted"]]
+    assert others
+    code, out, _ = run("map --points two.csv --fix mu=685Pa --nodes 21 --json")
+    made = json.loads(out)
+    assert code == 0
+    assert {row["y"] for row in made["points"]} >= {fit["toughness"]}
+    left = [note for note in made["notes"] if note.startswith("another material that fits is left")]
+    shown = {row["points"] for row in made["points"]}
+    assert len(left) + len(shown) == 1 + len(others)
+    assert left

@@ -408,3 +408,16 @@ def test_a_column_a_gel_is_answered_with_the_form_that_is_read(tmp_path):
     file.write_text("d (mm),Gel A (N/m),Gel B (N/m)\n0.1,2.9,4.1\n0.2,4.7,6.0\n")
     with pytest.raises(InputError, match="where each column is a gel of its own, write one line a"):
         read_measurements(file)
+
+
+@pytest.mark.parametrize("name", ["Échantillon", "Muestra", "Próbka", "試料", "Sample ID", "Gel"])
+def test_samples_are_known_by_their_name_in_other_languages(name, tmp_path):
+    file = tmp_path / "cuts.csv"
+    rows = ["A,0.1,2.9", "A,0.2,4.7", "B,0.1,4.1", "B,0.2,6.0"]
+    file.write_text("\n".join([f"{name},d (mm),F/T (N/m)", *rows]), encoding="utf-8")
+    assert read_measurements(file).samples == ("A", "A", "B", "B")
+    apart = read_measurements(file, by=name).of_each_gel()
+    assert {gel: one.force.tolist() for gel, one in apart.items()} == {
+        "A": [2.9, 4.7],
+        "B": [4.1, 6.0],
+    }
