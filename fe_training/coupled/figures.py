@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from fe_training.campaign.dataset import Campaign
 from fe_training.coupled.balance_picture import SIZE, balance_figure
 from fe_training.coupled.dataset import CoupledData
-from fe_training.coupled.fit import load_of
 from fe_training.figure_style import TOUGHNESS
 from fe_training.sliding.record import SlidingOutcome
 from surrogate import contact_functions
@@ -30,7 +29,7 @@ from surrogate.basics.figures import (
     panels,
     save_figure,
 )
-from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.amplification import Amplification, load_of
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:

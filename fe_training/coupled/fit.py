@@ -18,7 +18,7 @@ from fe_training.coupled.dataset import CoupledData
 from fe_training.coupled.process import LoadProcess, fit_process
 from fe_training.sliding.record import BALANCE_BOUND
 from surrogate.contact.coordinates import log_touch
-from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.amplification import Amplification, load_of
 from surrogate.coupling.polynomial import Polynomial
 from surrogate.errors import InputError
 
@@ -227,15 +227,6 @@ def _edge(direction: float, largest: tuple[float, float]) -> tuple[float, float]
         largest[0] * min(1.0, 2.0 * (1.0 - direction)),
         largest[1] * min(1.0, 2.0 * direction),
     )
-
-
-def load_of(xi: Array, wear: Array, largest: tuple[float, float]) -> tuple[Array, Array]:
-    """Return the size of loads as a share of the largest, and their direction."""
-    rubbed, worn = xi / largest[0], wear / largest[1]
-    size = np.maximum(rubbed, worn)
-    with np.errstate(all="ignore"):
-        direction = np.where(rubbed > worn, 0.5 * worn / size, 1.0 - 0.5 * rubbed / size)
-    return size, direction
 
 
 def _powers() -> NDArray[np.int64]:

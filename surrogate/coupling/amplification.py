@@ -20,7 +20,7 @@ from surrogate.basics.elementwise import dense, log, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
-__all__ = ["Amplification"]
+__all__ = ["Amplification", "load_of"]
 
 Array = NDArray[np.float64]
 
@@ -106,7 +106,7 @@ class Amplification:
         inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
         inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
         inside = inside & (x + log_touch(self.touch, y) >= self._log_lowest)
-        size, direction = self._load(xi, wear)
+        size, direction = load_of(xi, wear, self.largest)
         x, y = self._clamped(x, y)
         with np.errstate(all="ignore"):
             share = np.divide(size, self.reach_at(x, y, direction))
@@ -140,22 +140,11 @@ class Amplification:
         (left, right), (low, high) = self._ends
         return _between(x, left, right), _between(y, low, high)
 
-    def _load(self, xi: Any, wear: Any) -> tuple[Any, Any]:
-        """Return the size of a load, 1 on the outer edge of the campaign, and its direction."""
-        rubbed, worn = xi / self.largest[0], wear / self.largest[1]
-        size = where(np.greater(rubbed, worn), rubbed, worn)
-        with np.errstate(all="ignore"):
-            by_wear, by_friction = (
-                0.5 * part / where(size == 0.0, 1.0, size) for part in (worn, rubbed)
-            )
-            direction = where(np.greater(rubbed, worn), by_wear, 1.0 - by_friction)
-        return size, direction
-
     def _at(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[tuple[Any, ...], Any]:
         """Return the variables of the polynomial, and whether they are free to move."""
         place = self._place(g, alpha)
         x, y = self._clamped(*place)
-        size, direction = self._load(xi, wear)
+        size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(x, y, direction)
         free = (x == place[0]) & (y == place[1]) & (size <= reach)
         free = free & (place[0] + log_touch(self.touch, place[1]) >= self._log_lowest)
@@ -178,16 +167,36 @@ class Amplification:
 
     def in_cell(self, cell: tuple[int, int], x: Array, y: Array) -> NDArray[np.bool_]:
         """Return which points are in a cell of `errors` and `growth`."""
-        rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
-        columns = np.searchsorted(self.edges[1][1:-1], y, side="right")
+        rows, columns = self._cell(x, y)
         return np.asarray((rows == cell[0]) & (columns == cell[1]))
 
-    def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
-        x, y = self._place(g, alpha)
+    def _cell(self, x: Any, y: Any) -> tuple[Any, Any]:
         rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
-        columns = np.searchsorted(self.edges[1][1:-1], y, side="right")
-        value = table[rows, columns]
+        return rows, np.searchsorted(self.edges[1][1:-1], y, side="right")
+
+    def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
+        value = table[self._cell(*self._place(g, alpha))]
         return float(value) if np.ndim(value) == 0 else value
+
+
+def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
+    """Return the size of loads, 1 on the outer edge of the campaign, and their direction.
+
+    The direction is 0 for friction alone and 1 for wear alone.
+
+    Examples
+    --------
+    >>> load_of(0.25, 2.5, (0.5, 10.0))
+    (0.5, 0.25)
+    """
+    rubbed, worn = xi / largest[0], wear / largest[1]
+    size = where(np.greater(rubbed, worn), rubbed, worn)
+    with np.errstate(all="ignore"):
+        by_wear, by_friction = (
+            0.5 * part / where(size == 0.0, 1.0, size) for part in (worn, rubbed)
+        )
+        direction = where(np.greater(rubbed, worn), by_wear, 1.0 - by_friction)
+    return size, direction
 
 
 def _between(value: Any, low: float, high: float) -> Any:

@@ -280,22 +280,23 @@ def _blanked(force: CuttingForce, scene: Scene, blank: bool) -> CuttingForce:
     return force
 
 
+def _summed(scene: Scene, terms: Any) -> Any:
+    """Return total, cleavage, friction, wear, and what else a kernel of terms says of points."""
+
+    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
+        cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
+        friction, wear, *rest = terms(mu, gamma, *others)
+        return cleavage + friction + wear, cleavage, friction, wear, *rest
+
+    return apply(parts, scene.values(), (float, float, *terms.dtypes), AT_ONCE)
+
+
 def _lawful(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.auto import one_name
     from surrogate.choosing.auto_law import LawfulTerms
 
-    values = scene.values()
-    lawful = LawfulTerms(values, rtol)
-
-    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
-        cleavage = gamma + 0.0
-        friction, wear, *rest = lawful(mu, gamma, *others)
-        return cleavage + friction + wear, cleavage, friction, wear, *rest
-
-    dtypes = float, float, *lawful.dtypes
-    total, cleavage, friction, wear, holds, model, law, fit, of_law = apply(
-        parts, values, dtypes, AT_ONCE
-    )
+    lawful = LawfulTerms(scene.values(), rtol)
+    total, cleavage, friction, wear, holds, model, law, fit, of_law = _summed(scene, lawful)
     lawful.finish(extrapolate)
     names, laws = lawful.names(model), lawful.laws(law)
     return CuttingForce(
@@ -317,16 +318,8 @@ def _lawful(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce
 def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.auto import AutomaticTerms, one_name
 
-    values = scene.values()
-    automatic = AutomaticTerms(values, rtol)
-
-    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
-        cleavage = gamma + 0.0
-        friction, wear, *rest = automatic(mu, gamma, *others)
-        return cleavage + friction + wear, cleavage, friction, wear, *rest
-
-    dtypes = float, float, *automatic.dtypes
-    total, cleavage, friction, wear, holds, number, bound = apply(parts, values, dtypes, AT_ONCE)
+    automatic = AutomaticTerms(scene.values(), rtol)
+    total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
     automatic.finish(extrapolate)
     names = automatic.names(number)
     return CuttingForce(

@@ -7,9 +7,10 @@ from made_up_coupled import LARGEST, log_kappa, rows_of_base
 from fe_training.coupled.__main__ import main
 from fe_training.coupled.card import CARD
 from fe_training.coupled.dataset import write_coupled
-from fe_training.coupled.fit import fit_amplification, load_of, rows_of
+from fe_training.coupled.fit import fit_amplification, rows_of
 from surrogate import InputError
 from surrogate.contact.archive import read_fitted
+from surrogate.coupling.amplification import load_of
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification_of
 
 RNG = np.random.default_rng(21)
