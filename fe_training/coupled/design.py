@@ -24,6 +24,9 @@ else:
 
 _SCHEMA = "wirecut-coupled-1"
 
+#: The number of the first base that is placed by hand: the sequence can grow below it.
+FIRST_PLACED = 10_000
+
 
 @dataclass(frozen=True, slots=True)
 class Base:
@@ -46,6 +49,41 @@ class Base:
     g: float
     rays: tuple[tuple[tuple[float, float], ...], ...]
     held_out: bool
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Bases that are named one by one, where the sequence leaves kappa unknown.
+
+    Parameters
+    ----------
+    bases : tuple of (float, float)
+        (alpha, g) of each [-].
+    ends : tuple of (float, float)
+        Where the rays of each end: xi [-], and tau_w as a share of the largest.
+    wear : tuple of float
+        The largest tau_w/mu is ``factor sqrt(g)`` between two values: least, factor, most [-].
+    shares : tuple of float
+        Where on a ray rows are made, rising to 1.
+    settings, finer : Settings
+        The mesh, and that on which some loads are solved a second time.
+    """
+
+    bases: tuple[tuple[float, float], ...]
+    ends: tuple[tuple[float, float], ...]
+    wear: tuple[float, float, float]
+    shares: tuple[float, ...]
+    settings: Settings
+    finer: Settings
+
+    def rays(self, g: float) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """Return the loads along each ray at one g."""
+        least, factor, most = self.wear
+        largest = min(max(least, factor * g**0.5), most)
+        return tuple(
+            tuple((share * friction, share * part * largest) for share in self.shares)
+            for friction, part in self.ends
+        )
 
 
 @dataclass(frozen=True)
@@ -72,6 +110,8 @@ class CoupledDesign:
         The mesh.
     finer : Settings
         The mesh on which some loads are solved a second time; not part of the hash.
+    placed : Placed, optional
+        More bases, after those of the sequence; not part of the hash.
     """
 
     bases: int
@@ -85,14 +125,16 @@ class CoupledDesign:
     shares: tuple[float, ...]
     settings: Settings
     finer: Settings
+    placed: Placed | None = None
 
     @property
     def hash(self) -> str:
         """Sixteen hexadecimal digits that two designs share only if all their numbers agree.
 
-        But for the number of bases and the finer mesh: more of them is the same design, longer.
+        But for the number of bases, those that are placed and the finer mesh: more of them is the
+        same design, longer.
         """
-        besides = "bases", "finer"
+        besides = "bases", "finer", "placed"
         content = {key: value for key, value in asdict(self).items() if key not in besides}
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
@@ -102,11 +144,30 @@ class CoupledDesign:
 
         sequence = qmc.Sobol(3, seed=self.seed)
         points = sequence.random_base2(int(np.ceil(np.log2(self.bases))))[: self.bases]
-        return [self._base(number, *map(float, point)) for number, point in enumerate(points)]
+        bases = [self._base(number, *map(float, point)) for number, point in enumerate(points)]
+        return bases + self._placed()
+
+    def settings_of(self, base: Base) -> Settings:
+        """Return the mesh of a base."""
+        if self.placed is not None and base.number >= FIRST_PLACED:
+            return self.placed.settings
+        return self.settings
 
     def on_finer_mesh(self) -> CoupledDesign:
         """Return the design of the loads that are solved a second time: another mesh."""
-        return replace(self, settings=self.finer)
+        placed = self.placed and replace(self.placed, settings=self.placed.finer)
+        return replace(self, settings=self.finer, placed=placed)
+
+    def _placed(self) -> list[Base]:
+        if self.placed is None:
+            return []
+        return [
+            Base(FIRST_PLACED + n, alpha, g, self.placed.rays(g), self._is_held_out(n))
+            for n, (alpha, g) in enumerate(self.placed.bases)
+        ]
+
+    def _is_held_out(self, number: int) -> bool:
+        return number % self.held_out_every == self.held_out_every - 1
 
     def _base(self, number: int, x: float, y: float, z: float) -> Base:
         low, high = self.alpha
@@ -117,7 +178,7 @@ class CoupledDesign:
             round(low + x * (high - low), 4),
             float(f"{np.exp(weak + y * (tough - weak)):.4g}"),
             rays,
-            number % self.held_out_every == self.held_out_every - 1,
+            self._is_held_out(number),
         )
 
     def _ray(self, place: float) -> tuple[tuple[float, float], ...]:
@@ -152,6 +213,7 @@ def _design(content: Mapping[str, Any]) -> CoupledDesign:
     if content["schema"] != _SCHEMA:
         raise ValueError(f"schema is {content['schema']!r}, not {_SCHEMA!r}")
     limits, rays = content["range"], content["rays"]
+    settings, finer = content["settings"], content.get("finer", {})
     return CoupledDesign(
         bases=int(content["bases"]),
         seed=int(content["seed"]),
@@ -162,8 +224,22 @@ def _design(content: Mapping[str, Any]) -> CoupledDesign:
         wear=float(limits["wear"]),
         rays=int(rays["count"]),
         shares=tuple(float(share) for share in rays["shares"]),
-        settings=Settings(**content["settings"]),
-        finer=Settings(**{**content["settings"], **content.get("finer", {})}),
+        settings=Settings(**settings),
+        finer=Settings(**{**settings, **finer}),
+        placed=_placed(content["placed"], settings) if "placed" in content else None,
+    )
+
+
+def _placed(content: Mapping[str, Any], settings: Mapping[str, Any]) -> Placed:
+    own = {**settings, **content.get("settings", {})}
+    least, factor, most = map(float, content["wear"])
+    return Placed(
+        bases=tuple(_pair(base) for base in content["bases"]),
+        ends=tuple(_pair(end) for end in content["ends"]),
+        wear=(least, factor, most),
+        shares=tuple(float(share) for share in content["shares"]),
+        settings=Settings(**own),
+        finer=Settings(**{**own, **content.get("finer", {})}),
     )
 
 
@@ -179,7 +255,8 @@ def _checked(design: CoupledDesign) -> CoupledDesign:
         raise ValueError("the ranges of g and alpha must be positive and rising")
     if not (0 <= design.friction < np.inf and 0 <= design.wear < np.inf):
         raise ValueError("friction and wear must be finite and not negative")
-    rising = np.diff((0.0, *design.shares))
-    if not len(rising) or not (rising > 0).all() or design.shares[-1] != 1.0:
-        raise ValueError("shares must rise from above 0 to 1")
+    for shares in (design.shares, *([design.placed.shares] if design.placed else [])):
+        rising = np.diff((0.0, *shares))
+        if not len(rising) or not (rising > 0).all() or shares[-1] != 1.0:
+            raise ValueError("shares must rise from above 0 to 1")
     return design

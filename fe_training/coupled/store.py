@@ -105,6 +105,8 @@ class CoupledStore:
             if hashlib.sha256(content.encode()).hexdigest() != digest:
                 raise ValueError("its checksum does not match")
             values = json.loads(content)
+            if values["base"] != json.loads(json.dumps(asdict(base))):
+                raise ValueError("it is of another base")
             records = tuple(_record(row) for row in values["rows"])
             return BaseRows(records, values["software"])
         except FileNotFoundError:
@@ -112,7 +114,7 @@ class CoupledStore:
         except OSError as error:
             raise InputError(f"{path} cannot be read ({error.strerror})") from None
         except (ValueError, KeyError, TypeError) as error:
-            _log.warning("%s is damaged (%s) and is solved again", path.name, error)
+            _log.warning("%s cannot be used (%s) and is solved again", path.name, error)
             return None
 
     def is_finished(self, base: Base) -> bool:
