@@ -84,7 +84,9 @@ def _run(options: argparse.Namespace) -> int:
         for record in rows.records if rows else ():
             outcomes[("held out, " if base.held_out else "") + record.outcome.name] += 1
     lines = [f"{count:6d} {name}" for name, count in sorted(outcomes.items())]
-    lines.append(f"{len(waiting(design, store)):6d} of {len(design.all_bases())} bases are not finished")
+    lines.append(
+        f"{len(waiting(design, store)):6d} of {len(design.all_bases())} bases are not finished"
+    )
     sys.stdout.write("\n".join(lines) + "\n")
     return 0
 

@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,9 @@ else:
 
 _SCHEMA = "wirecut-coupled-1"
 
-#: The number of the first base that is placed by hand: the sequence can grow below it.
-FIRST_PLACED = 10_000
+#: The number of the first base that is placed by hand, and of how many more the next set of them
+#: begins: the sequence and each set can grow.
+FIRST_PLACED, MOST_PLACED = 10_000, 1_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +112,7 @@ class CoupledDesign:
         The mesh.
     finer : Settings
         The mesh on which some loads are solved a second time; not part of the hash.
-    placed : Placed, optional
+    placed : tuple of Placed
         More bases, after those of the sequence; not part of the hash.
     """
 
@@ -125,7 +127,7 @@ class CoupledDesign:
     shares: tuple[float, ...]
     settings: Settings
     finer: Settings
-    placed: Placed | None = None
+    placed: tuple[Placed, ...] = ()
 
     @property
     def hash(self) -> str:
@@ -149,21 +151,20 @@ class CoupledDesign:
 
     def settings_of(self, base: Base) -> Settings:
         """Return the mesh of a base."""
-        if self.placed is not None and base.number >= FIRST_PLACED:
-            return self.placed.settings
-        return self.settings
+        if base.number < FIRST_PLACED:
+            return self.settings
+        return self.placed[(base.number - FIRST_PLACED) // MOST_PLACED].settings
 
     def on_finer_mesh(self) -> CoupledDesign:
         """Return the design of the loads that are solved a second time: another mesh."""
-        placed = self.placed and replace(self.placed, settings=self.placed.finer)
+        placed = tuple(replace(some, settings=some.finer) for some in self.placed)
         return replace(self, settings=self.finer, placed=placed)
 
     def _placed(self) -> list[Base]:
-        if self.placed is None:
-            return []
         return [
-            Base(FIRST_PLACED + n, alpha, g, self.placed.rays(g), self._is_held_out(n))
-            for n, (alpha, g) in enumerate(self.placed.bases)
+            Base(first + n, alpha, g, some.rays(g), self._is_held_out(n))
+            for first, some in zip(count(FIRST_PLACED, MOST_PLACED), self.placed)
+            for n, (alpha, g) in enumerate(some.bases)
         ]
 
     def _is_held_out(self, number: int) -> bool:
@@ -226,7 +227,7 @@ def _design(content: Mapping[str, Any]) -> CoupledDesign:
         shares=tuple(float(share) for share in rays["shares"]),
         settings=Settings(**settings),
         finer=Settings(**{**settings, **finer}),
-        placed=_placed(content["placed"], settings) if "placed" in content else None,
+        placed=tuple(_placed(some, settings) for some in content.get("placed", ())),
     )
 
 
@@ -255,7 +256,9 @@ def _checked(design: CoupledDesign) -> CoupledDesign:
         raise ValueError("the ranges of g and alpha must be positive and rising")
     if not (0 <= design.friction < np.inf and 0 <= design.wear < np.inf):
         raise ValueError("friction and wear must be finite and not negative")
-    for shares in (design.shares, *([design.placed.shares] if design.placed else [])):
+    if any(len(some.bases) > MOST_PLACED for some in design.placed):
+        raise ValueError(f"a set of placed bases must have at most {MOST_PLACED}")
+    for shares in (design.shares, *(some.shares for some in design.placed)):
         rising = np.diff((0.0, *shares))
         if not len(rising) or not (rising > 0).all() or shares[-1] != 1.0:
             raise ValueError("shares must rise from above 0 to 1")

@@ -62,7 +62,8 @@ def run_coupled(
     form = "{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, {remaining} left"
     with backend(workers or Workers()), watched(sum(rows.values()), form, look):
         Parallel(batch_size=1, pre_dispatch="all")(
-            delayed(run_base)(base, design.settings_of(base), str(store.folder), solve) for base in todo
+            delayed(run_base)(base, design.settings_of(base), str(store.folder), solve)
+            for base in todo
         )
 
 
