@@ -8,7 +8,7 @@ processes with squared-exponential covariances, each with a length for every var
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -51,11 +51,12 @@ class LoadProcess:
 
     def covariance(self, a: Array, b: Array) -> Array:
         """Return the prior covariance of ln kappa at points."""
+        from scipy.spatial.distance import cdist
+
         total = np.zeros((len(a), len(b)))
         for column, size, length in zip((2, 3), self.sizes, self.lengths, strict=True):
-            scaled, other = a / length, b / length
-            square = ((scaled[:, None] - other[None]) ** 2).sum(axis=2)
-            total += size**2 * np.outer(a[:, column], b[:, column]) * np.exp(-0.5 * square)
+            decay = np.exp(-0.5 * cdist(a / length, b / length, "sqeuclidean"))
+            total += size**2 * np.outer(a[:, column], b[:, column]) * decay
         return total
 
     @cached_property
@@ -83,6 +84,26 @@ class LoadProcess:
         factor, weights = self._factor
         halves = np.log(np.diag(factor[0])).sum()
         return float(-0.5 * self.values @ weights - halves)
+
+    def log_likelihood_slopes(self) -> Array:
+        """Return its derivatives by the logarithms of the two sizes, and of the eight lengths.
+
+        With K the covariance of the data and a = K^-1 values, (a a' - K^-1) : dK / 2.
+        """
+        from scipy.linalg import cho_solve
+
+        factor, weights = self._factor
+        excess = np.outer(weights, weights) - cho_solve(factor, np.eye(len(self.values)))
+        by_size, by_length = [], []
+        for part in range(2):
+            alone = replace(self, sizes=np.where(np.arange(2) == part, self.sizes, 0.0))
+            weighted = excess * alone.covariance(self.inputs, self.inputs)
+            by_size.append(weighted.sum())
+            for column, length in zip(self.inputs.T, self.lengths[part], strict=True):
+                scaled = column / length
+                spread = scaled**2 @ weighted.sum(axis=1) - scaled @ weighted @ scaled
+                by_length.append(spread)
+        return np.array([*by_size, *by_length])
 
     def left_out(self, groups: NDArray[Any]) -> tuple[Array, Array]:
         """Return error and standard deviation of each point, its whole group left out."""
@@ -117,16 +138,17 @@ def fit_process(inputs: Array, values: Array, noise: Array, starts: int = 3) -> 
         found = np.exp(parameters)
         return LoadProcess(inputs, values, noise, found[:2], found[2:].reshape(2, 4))
 
-    def cost(parameters: Array) -> float:
+    def cost(parameters: Array) -> tuple[float, Array]:
         try:
-            return -process(parameters).log_likelihood()
+            tried = process(parameters)
+            return -tried.log_likelihood(), -tried.log_likelihood_slopes()
         except np.linalg.LinAlgError:
-            return 1e10
+            return 1e10, np.zeros(len(parameters))
 
     best: Any = None
     for share in np.linspace(0.35, 0.75, starts):
         start = np.array([low + share * (high - low) for low, high in bounds])
-        found = minimize(cost, start, method="L-BFGS-B", bounds=bounds)
+        found = minimize(cost, start, jac=True, method="L-BFGS-B", bounds=bounds)
         if best is None or found.fun < best.fun:
             best = found
     return process(best.x)

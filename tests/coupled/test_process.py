@@ -62,6 +62,19 @@ def test_a_base_left_out_is_a_process_that_never_saw_it(noisy):
         assert own**2 + 1e-10 == pytest.approx(std[out] ** 2, rel=1e-5, abs=1e-11)
 
 
+def test_the_slopes_of_the_likelihood_are_its_differences(noisy):
+    away = replace(noisy, sizes=1.3 * noisy.sizes, lengths=0.8 * noisy.lengths)
+    logs, step = np.log(np.concatenate([away.sizes, away.lengths.ravel()])), 1e-4
+
+    def height(parameters):
+        found = np.exp(parameters)
+        return replace(away, sizes=found[:2], lengths=found[2:].reshape(2, 4)).log_likelihood()
+
+    differences = [(height(logs + d) - height(logs - d)) / (2.0 * step) for d in step * np.eye(10)]
+    # of the order of step**2 of heights of some hundreds, and their rounding over step
+    assert away.log_likelihood_slopes() == pytest.approx(differences, rel=1e-4, abs=1e-3)
+
+
 def test_the_calibration_scales_deviations_only(noisy):
     places = points(20)
     mean, std = noisy.predict(places)
