@@ -70,7 +70,7 @@ def _run(options: argparse.Namespace) -> int:
 
     design, store = read_design(options.design), CoupledStore(options.store)
     if options.fit:
-        return _fit(Path(options.fit), design)
+        return _fit(Path(options.fit))
     if options.figures:
         return _draw(Path(options.figures))
     finer = CoupledStore(store.folder / "finer")
@@ -108,13 +108,13 @@ def _solve(
         run_coupled(design, store, waiting(design, store)[: options.bases], workers)
 
 
-def _fit(folder: Path, design: CoupledDesign) -> int:
+def _fit(folder: Path) -> int:
     from fe_training.coupled.card import CARD, make_amplification
     from fe_training.coupled.dataset import read_coupled
     from surrogate.contact.shipped import shipped
 
     data = read_coupled(folder / DATA)
-    make_amplification(data, shipped().limits.touch, (design.friction, design.wear), folder)
+    make_amplification(data, shipped().limits.touch, folder)
     sys.stdout.write(f"{folder / CARD}\n")
     return 0
 

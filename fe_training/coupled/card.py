@@ -14,7 +14,7 @@ from fe_training.campaign.store import write_atomically
 from fe_training.coupled.dataset import CoupledData
 from fe_training.coupled.fit import KNOWN, FitRows, fit_amplification, rows_of
 from surrogate.basics.files import checksum_line
-from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.amplification import LEAST_SHARE, Amplification
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, content_of_amplification
 
 __all__ = ["CARD", "make_amplification"]
@@ -22,9 +22,7 @@ __all__ = ["CARD", "make_amplification"]
 CARD = "coupled-card.md"
 
 
-def make_amplification(
-    data: CoupledData, touch: tuple[float, ...], largest: tuple[float, float], out: Path
-) -> Amplification:
+def make_amplification(data: CoupledData, touch: tuple[float, ...], out: Path) -> Amplification:
     """Fit kappa to a data set, and write its file, the checksum and the card into a folder.
 
     Parameters
@@ -33,8 +31,6 @@ def make_amplification(
         The rows.
     touch : tuple of float
         Coefficients of ln g_touch in powers of ln alpha.
-    largest : tuple of float
-        The largest xi and tau_w/mu of the campaign [-].
     out : Path
         The folder.
 
@@ -45,7 +41,7 @@ def make_amplification(
     """
     rows = rows_of(data, touch)
     about = {"data": dict(data.attributes)}
-    kappa, process, told = fit_amplification(rows, touch, largest, about)
+    kappa, process, told = fit_amplification(rows, touch, about)
     content = content_of_amplification(kappa)
     write_atomically(out / AMPLIFICATION_FILE, content)
     checksum = checksum_line(AMPLIFICATION_FILE, content)
@@ -95,8 +91,9 @@ def _card(
         f"{_percent(told['left_out_within_two_std'])} |",
         f"| factor of the deviations that leaving bases out gave | {calibration:.2f} |",
         "",
-        "Bounds of |ln kappa - that of finite elements| by cell, rows x = ln(g/g_touch), columns",
-        "alpha:",
+        "Bounds of |ln kappa - that of finite elements| at the largest load that is known, by",
+        "cell, rows x = ln(g/g_touch), columns alpha; in proportion to the load down to "
+        f"{LEAST_SHARE:g} of it:",
         "",
         *_table(kappa, kappa.errors),
         "",
@@ -104,7 +101,7 @@ def _card(
         "",
         *_table(kappa, kappa.growth),
         "",
-        "Reach: the largest load that is known, as a share of xi = "
+        "Reach: the largest load that is known, in units of xi = "
         f"{kappa.largest[0]:g} and tau_w/mu = {kappa.largest[1]:g}, for friction alone / both / "
         "wear alone:",
         "",

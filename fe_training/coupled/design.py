@@ -63,8 +63,10 @@ class Placed:
         (alpha, g) of each [-].
     ends : tuple of (float, float)
         Where the rays of each end: xi [-], and tau_w as a share of the largest.
-    wear : tuple of float
-        The largest tau_w/mu is ``factor sqrt(g)`` between two values: least, factor, most [-].
+    wear : tuple of (float, float)
+        The largest tau_w/mu is the largest of the terms ``factor g**power`` of these [-].
+    most : float
+        But at most this [-].
     shares : tuple of float
         Where on a ray rows are made, rising to 1.
     settings, finer : Settings
@@ -73,15 +75,15 @@ class Placed:
 
     bases: tuple[tuple[float, float], ...]
     ends: tuple[tuple[float, float], ...]
-    wear: tuple[float, float, float]
+    wear: tuple[tuple[float, float], ...]
+    most: float
     shares: tuple[float, ...]
     settings: Settings
     finer: Settings
 
     def rays(self, g: float) -> tuple[tuple[tuple[float, float], ...], ...]:
         """Return the loads along each ray at one g."""
-        least, factor, most = self.wear
-        largest = min(max(least, factor * g**0.5), most)
+        largest = min(max(factor * g**power for factor, power in self.wear), self.most)
         return tuple(
             tuple((share * friction, share * part * largest) for share in self.shares)
             for friction, part in self.ends
@@ -227,17 +229,19 @@ def _design(content: Mapping[str, Any]) -> CoupledDesign:
         shares=tuple(float(share) for share in rays["shares"]),
         settings=Settings(**settings),
         finer=Settings(**{**settings, **finer}),
-        placed=tuple(_placed(some, settings) for some in content.get("placed", ())),
+        placed=tuple(
+            _placed(some, settings, float(limits["wear"])) for some in content.get("placed", ())
+        ),
     )
 
 
-def _placed(content: Mapping[str, Any], settings: Mapping[str, Any]) -> Placed:
+def _placed(content: Mapping[str, Any], settings: Mapping[str, Any], most: float) -> Placed:
     own = {**settings, **content.get("settings", {})}
-    least, factor, most = map(float, content["wear"])
     return Placed(
         bases=tuple(_pair(base) for base in content["bases"]),
         ends=tuple(_pair(end) for end in content["ends"]),
-        wear=(least, factor, most),
+        wear=tuple(_pair(term) for term in content["wear"]),
+        most=most,
         shares=tuple(float(share) for share in content["shares"]),
         settings=Settings(**own),
         finer=Settings(**{**own, **content.get("finer", {})}),

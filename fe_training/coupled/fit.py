@@ -18,7 +18,7 @@ from fe_training.coupled.dataset import CoupledData
 from fe_training.coupled.process import LoadProcess, fit_process
 from fe_training.sliding.record import BALANCE_BOUND
 from surrogate.contact.coordinates import log_touch
-from surrogate.coupling.amplification import Amplification, load_of
+from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
 from surrogate.coupling.polynomial import Polynomial
 from surrogate.errors import InputError
 
@@ -49,8 +49,11 @@ SAFETY = 1.5
 #: Degrees of the polynomial: of x and y together, of xi and w together, and of all four.
 _PLACES, _LOADS, _ALL = 4, 4, 6
 
-_NODES = (16, 8, 7)
-_STEPS = 40
+#: xi and tau_w/mu in units of which a load has a size and a direction.
+LOAD_UNIT = (0.5, 1.0)
+
+_NODES = (16, 9, 9)
+_STEPS = 60
 _X_EDGES, _ALPHA_EDGES = (-9.0, -5.0, -2.5), (3.0, 5.0)
 
 
@@ -120,7 +123,10 @@ def rows_of(data: CoupledData, touch: tuple[float, ...]) -> FitRows:
 
 
 def fit_amplification(
-    rows: FitRows, touch: tuple[float, ...], largest: tuple[float, float], about: dict[str, Any]
+    rows: FitRows,
+    touch: tuple[float, ...],
+    about: dict[str, Any],
+    unit: tuple[float, float] = LOAD_UNIT,
 ) -> tuple[Amplification, LoadProcess, dict[str, float]]:
     """Return kappa, the process behind it, and its errors at rows that no fit sees.
 
@@ -130,10 +136,10 @@ def fit_amplification(
         All usable rows.
     touch : tuple of float
         Coefficients of ln g_touch.
-    largest : tuple of float
-        The largest xi and tau_w/mu of the campaign [-].
     about : dict
         What is to be told of the data.
+    unit : tuple of float
+        xi and tau_w/mu of a load of size 1 [-].
 
     Raises
     ------
@@ -149,13 +155,13 @@ def fit_amplification(
     process = fit_process(seen.inputs, seen.values, seen.noise)
     left = process.left_out(seen.base)
     process = replace(process, calibration=float(np.sqrt(np.mean((left[0] / left[1]) ** 2))))
-    axes, reach = _reach(process, seen, largest)
+    axes, reach = _reach(process, seen, unit)
     bare = Amplification(
         touch,
         Polynomial(np.array([[0, 0, 1, 0]]), np.zeros(1)),
         axes,
         reach,
-        largest,
+        unit,
         ((axes[0][0], *_X_EDGES, axes[0][-1]), (axes[1][0], *np.log(_ALPHA_EDGES), axes[1][-1])),
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
@@ -168,7 +174,7 @@ def fit_amplification(
 
 
 def _reach(
-    process: LoadProcess, rows: FitRows, largest: tuple[float, float]
+    process: LoadProcess, rows: FitRows, unit: tuple[float, float]
 ) -> tuple[tuple[Array, Array, Array], Array]:
     """Return the nodes, and the largest load of each up to which the process knows ln kappa."""
     x, y = rows.inputs[:, 0], rows.inputs[:, 1]
@@ -177,11 +183,11 @@ def _reach(
         np.linspace(y.min(), y.max(), _NODES[1]),
         np.linspace(0.0, 1.0, _NODES[2]),
     )
-    size, direction = load_of(rows.inputs[:, 2], np.expm1(rows.inputs[:, 3]), largest)
+    size, direction = load_of(rows.inputs[:, 2], np.expm1(rows.inputs[:, 3]), unit)
     reach = np.zeros(_NODES)
-    shares = np.geomspace(1e-3, 1.0, _STEPS)
+    shares = np.geomspace(1e-3, size.max(), _STEPS)
     for i, j, k in np.ndindex(*_NODES):
-        xi, wear = _edge(float(axes[2][k]), largest)
+        xi, wear = _edge(float(axes[2][k]), unit)
         ray = np.column_stack(
             [
                 np.full(_STEPS, axes[0][i]),
@@ -192,7 +198,9 @@ def _reach(
         )
         std = process.predict(ray)[1]
         known = np.flatnonzero(std > KNOWN)
-        last = shares[known[0] - 1] if len(known) and known[0] else (0.0 if len(known) else 1.0)
+        last = (
+            shares[known[0] - 1] if len(known) and known[0] else (0.0 if len(known) else shares[-1])
+        )
         place = float(axes[0][i]), float(axes[1][j]), float(axes[2][k])
         near = _nearby(rows, size, direction, place, process)
         reach[i, j, k] = min(last, near)
@@ -221,11 +229,11 @@ def _nearby(
     return float(np.exp(weights @ sizes / weights.sum()))
 
 
-def _edge(direction: float, largest: tuple[float, float]) -> tuple[float, float]:
-    """Return the largest load of a direction."""
+def _edge(direction: float, unit: tuple[float, float]) -> tuple[float, float]:
+    """Return the load of size 1 in a direction."""
     return (
-        largest[0] * min(1.0, 2.0 * (1.0 - direction)),
-        largest[1] * min(1.0, 2.0 * direction),
+        unit[0] * min(1.0, 2.0 * (1.0 - direction)),
+        unit[1] * min(1.0, 2.0 * direction),
     )
 
 
@@ -308,12 +316,15 @@ def _errors(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
     """Return bounds by cell, of the rows within reach; the largest where a cell has none.
 
     The error of a row is that of the process to which its whole base is not known, where that is
-    not extrapolation, and how far the polynomial is from the process.
+    not extrapolation, and how far the polynomial is from the process. It counts in proportion to
+    the share of the reach that its load is.
     """
     error, std = process.left_out(rows.base)
     apart = np.abs(kappa.polynomial(*rows.inputs.T) - process.predict(rows.inputs)[0])
-    judged = np.where(std <= LEFT_OUT_KNOWN, np.abs(error), KNOWN) + apart
-    known = _share(kappa, rows) <= 1.0
+    share = _share(kappa, rows)
+    judged = np.where(std <= LEFT_OUT_KNOWN, np.abs(error), KNOWN * np.minimum(share, 1.0)) + apart
+    judged /= np.clip(share, LEAST_SHARE, 1.0)
+    known = share <= 1.0
     table = np.full(kappa.errors.shape, np.nan)
     for cell in np.ndindex(table.shape):
         here = known & kappa.in_cell(cell, rows.inputs[:, 0], rows.inputs[:, 1])

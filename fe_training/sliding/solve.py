@@ -20,7 +20,7 @@ from surrogate.errors import InputError
 #: Friction and wear that the engine is made for, from 0.
 MOST_FRICTION, MOST_WEAR = 5.0, 100.0
 
-_STEPS = Steps(first=0.02, largest=0.5, smallest=4e-3)
+_STEPS = Steps(first=0.02, largest=0.5, smallest=1e-2)
 
 Report = Callable[[SlidingRecord], None]
 

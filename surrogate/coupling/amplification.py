@@ -20,9 +20,12 @@ from surrogate.basics.elementwise import dense, log, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
-__all__ = ["Amplification", "load_of"]
+__all__ = ["LEAST_SHARE", "Amplification", "load_of"]
 
 Array = NDArray[np.float64]
+
+LEAST_SHARE = 0.1
+"""Share of the largest known load below which the bound of kappa's error falls no further."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +42,14 @@ class Amplification:
         Nodes in x, in y and of the direction of the load, which is 0 for friction alone and 1 for
         wear alone; where `reach` is known.
     reach : ndarray, shape of the axes
-        The largest load of each direction, as a share of the largest one of the campaign.
+        The size of the largest load of each direction that is known.
     largest : tuple of float
-        The largest xi and tau_w/mu of the campaign [-].
+        xi and tau_w/mu of a load of size 1 [-].
     edges : tuple of tuple of float
         Of the cells in x and in y.
     errors : ndarray, shape (cells in x, cells in y)
-        Bound of |ln kappa - that of finite elements|.
+        Bound of |ln kappa - that of finite elements| at the largest load that is known; in
+        proportion to the load down to a tenth of that, and the same below.
     growth : ndarray, shape (cells in x, cells in y)
         Largest |ln kappa| over xi + w/10.
     about : mapping
@@ -114,8 +118,9 @@ class Amplification:
 
     def error(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return the bound of the error of ln kappa; nan where it is not known."""
-        known = np.less_equal(self.share(g, alpha, xi, wear), 1.0)
-        return where(known, self._of_cell(self.errors, g, alpha), np.nan)
+        share = self.share(g, alpha, xi, wear)
+        bound = self._of_cell(self.errors, g, alpha) * _between(share, LEAST_SHARE, 1.0)
+        return where(np.less_equal(share, 1.0), bound, np.nan)
 
     def most(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return a bound of |ln kappa|; nan where it is not known."""
@@ -180,7 +185,7 @@ class Amplification:
 
 
 def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
-    """Return the size of loads, 1 on the outer edge of the campaign, and their direction.
+    """Return the size of loads, the larger of both in their units, and their direction.
 
     The direction is 0 for friction alone and 1 for wear alone.
 

@@ -12,6 +12,7 @@ from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.fitted import TERMS_OF_LAW
 from surrogate.contact.shipped import folder_in_use
+from surrogate.coupling.amplification import LEAST_SHARE
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification
 from surrogate.cutting.regimes import DOMINANT_SHARE, PARTS
 from surrogate.reading import plausibility
@@ -121,6 +122,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
             "lowest": kappa.lowest,
+            "leastShare": LEAST_SHARE,
         }
     }
 

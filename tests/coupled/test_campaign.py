@@ -103,7 +103,8 @@ def test_placed_bases_stand_behind_the_sequence_with_rays_and_a_mesh_of_their_ow
     placed = Placed(
         bases=((2.0, 0.01), (3.0, 4.0)),
         ends=((0.5, 0.0), (0.1, 1.0)),
-        wear=(0.5, 1.5, 2.0),
+        wear=((0.5, 0.0), (1.5, 0.5)),
+        most=2.0,
         shares=(0.1, 1.0),
         settings=replace(design.settings, contact_spacing=0.05),
         finer=replace(design.settings, contact_spacing=0.02),
@@ -145,7 +146,7 @@ def test_a_store_of_another_design_is_refused(design, tmp_path):
     ("old", "new"),
     [
         ("wirecut-coupled-1", "wirecut-coupled-0"),
-        ("bases = 32", "bases = 0"),
+        ("bases = 28", "bases = 0"),
         ("g = [2.5e-3, 100]", "g = [0, 100]"),
         ("friction = 0.5", "friction = -0.5"),
         ("0.8, 1]", "0.8, 0.9]"),

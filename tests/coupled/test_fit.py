@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from made_up_coupled import LARGEST, log_kappa, rows_of_base
+from made_up_coupled import log_kappa, rows_of_base
 
 from fe_training.coupled.__main__ import main
 from fe_training.coupled.card import CARD
 from fe_training.coupled.dataset import write_coupled
-from fe_training.coupled.fit import fit_amplification, rows_of
+from fe_training.coupled.fit import LOAD_UNIT, fit_amplification, rows_of
 from surrogate import InputError
 from surrogate.contact.archive import read_fitted
 from surrogate.coupling.amplification import load_of
@@ -26,8 +26,8 @@ def unseen(kappa, count=400):
     x, y = (RNG.uniform(axis[0], axis[-1], count) for axis in kappa.axes[:2])
     direction, part = RNG.uniform(0.0, 1.0, count), RNG.uniform(0.05, 0.999, count)
     reach = part * kappa.reach_at(x, y, direction)
-    xi = reach * LARGEST[0] * np.minimum(1.0, 2.0 * (1.0 - direction))
-    wear = reach * LARGEST[1] * np.minimum(1.0, 2.0 * direction)
+    xi = reach * LOAD_UNIT[0] * np.minimum(1.0, 2.0 * (1.0 - direction))
+    wear = reach * LOAD_UNIT[1] * np.minimum(1.0, 2.0 * direction)
     g = np.exp(x + np.polynomial.polynomial.polyval(y, kappa.touch))
     known = g >= kappa.lowest
     assert known.sum() > 0.5 * count
@@ -52,7 +52,7 @@ def test_the_growth_bounds_what_the_load_does(kappa):
 def test_the_reach_goes_no_further_than_the_rows(kappa, made_up, touch):
     rows = rows_of(made_up, touch)
     rows = rows.taken(~rows.held_out)
-    size, _ = load_of(rows.inputs[:, 2], np.expm1(rows.inputs[:, 3]), LARGEST)
+    size, _ = load_of(rows.inputs[:, 2], np.expm1(rows.inputs[:, 3]), LOAD_UNIT)
     assert 0.0 < kappa.reach.max() <= size.max() * (1.0 + 1e-9)
     x, y, _ = kappa.axes
     assert x[0] >= rows.inputs[:, 0].min()
@@ -92,7 +92,7 @@ def test_too_few_rows_are_refused(made_up, touch):
     rows = rows_of(made_up, touch)
     few = rows.taken(rows.base < 6)  # base 4 is held out
     with pytest.raises(InputError, match="45 rows of 5; go on with the campaign"):
-        fit_amplification(few, touch, LARGEST, {})
+        fit_amplification(few, touch, {})
 
 
 def test_the_command_refuses_a_short_data_set_in_one_line(touch, tmp_path, capsys):
@@ -107,7 +107,7 @@ def test_the_command_refuses_a_short_data_set_in_one_line(touch, tmp_path, capsy
 def test_the_file_is_small_and_carries_its_data(fitted_folder, kappa):
     assert (fitted_folder.path / AMPLIFICATION_FILE).stat().st_size < 150_000
     assert kappa.about["data"]["design"] == "made up"
-    assert kappa.largest == LARGEST
+    assert kappa.largest == LOAD_UNIT
     assert fitted_folder.printed == f"{fitted_folder.path / CARD}\n"
 
 

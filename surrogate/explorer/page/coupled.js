@@ -3,7 +3,7 @@
 // ln kappa, a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu), where it is
 // known, and how far it may be off.
 const KAPPA = (() => {
-  const {touch, terms, axes, reach, largest, edges, errors, lowest} = DATA.coupled;
+  const {touch, terms, axes, reach, largest, edges, errors, lowest, leastShare} = DATA.coupled;
 
   // The coefficients by the power of the first variable, and so on; a number where none is left.
   function nested(rows) {
@@ -61,7 +61,7 @@ const KAPPA = (() => {
     const xi = known ? s.xi : reached*largest[0]*clamped(2 - 2*direction, 0, 1);
     const wear = known ? s.tau_w/s.mu : reached*largest[1]*clamped(2*direction, 0, 1);
     const inside = near.every((one, n) => one === place[n]) && g >= lowest*(1 - 1e-9);
-    return {inside, free: inside && known, unloaded: size === 0, variables: [...near, xi, Math.log1p(wear)]};
+    return {inside, free: inside && known, unloaded: size === 0, size, reached, variables: [...near, xi, Math.log1p(wear)]};
   }
 
   return {
@@ -76,7 +76,8 @@ const KAPPA = (() => {
     },
     ownError: (g, s) => {
       const [row, column] = placeOf(g, s.alpha).map((one, n) => intervalOf(edges[n], one));
-      return Math.expm1(errors[row][column]);
+      const {size, reached} = at(g, s);
+      return Math.expm1(errors[row][column]*clamped(size/reached, leastShare, 1));
     },
     inside: (g, s) => at(g, s).inside,
     ends: axes.map((axis) => [axis[0], axis[axis.length - 1]]),
