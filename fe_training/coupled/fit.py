@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.coupled.dataset import CoupledData
-from fe_training.coupled.process import LoadProcess, fit_process
+from fe_training.coupled.process import LoadProcess, fit_process, variables
 from fe_training.sliding.record import BALANCE_BOUND
 from surrogate.contact.coordinates import log_touch
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
@@ -29,9 +29,9 @@ Array = NDArray[np.float64]
 #: Fewest bases and rows of a fit.
 FEWEST_BASES, FEWEST_ROWS = 6, 60
 
-#: Least standard error of ln kappa, and the part of the difference between the integrals and the
-#: sums over nodes that remains in the integrals.
-_FLOOR, _LEFT = 1e-3, 0.2
+#: The part of the difference between the integrals and the sums over nodes that remains in the
+#: integrals.
+_LEFT = 0.2
 
 #: Standard deviation of ln kappa up to which it counts as known.
 KNOWN = 0.01
@@ -47,7 +47,7 @@ MOST = 0.5
 SAFETY = 1.5
 
 #: Degrees of the polynomial: of x and y together, of xi and w together, and of all four.
-_PLACES, _LOADS, _ALL = 4, 4, 6
+_PLACES, _LOADS, _ALL = 6, 3, 8
 
 #: xi and tau_w/mu in units of which a load has a size and a direction.
 LOAD_UNIT = (0.5, 1.0)
@@ -107,7 +107,7 @@ def rows_of(data: CoupledData, touch: tuple[float, ...]) -> FitRows:
         values = np.log(data.amplification)
         sums = np.log((data["steady_force"] - data["energy_release_rate"]) / first)
         drag = first * np.exp(values)
-        noise = (_FLOOR + _LEFT * np.abs(values - sums)) ** 2
+        noise = (_LEFT * np.abs(values - sums)) ** 2
         usable = np.isfinite(noise) & (data.balance_error <= BALANCE_BOUND)
         usable &= np.abs(values) <= MOST
     usable &= ~data["touches_tip"] & (friction + wear > 0.0)
@@ -152,7 +152,7 @@ def fit_amplification(
             f"kappa must be fitted to {FEWEST_ROWS} rows of {FEWEST_BASES} bases or more, but "
             f"there are {len(seen)} rows of {len(np.unique(seen.base))}; go on with the campaign."
         )
-    process = fit_process(seen.inputs, seen.values, seen.noise)
+    process = fit_process(seen.inputs, seen.values, seen.noise, touch)
     left = process.left_out(seen.base)
     process = replace(process, calibration=float(np.sqrt(np.mean((left[0] / left[1]) ** 2))))
     axes, reach = _reach(process, seen, unit)
@@ -215,11 +215,12 @@ def _nearby(
     process: LoadProcess,
 ) -> float:
     """Return the load that the nearest rays reached, weighted by their nearness."""
-    lengths = np.sqrt(process.lengths[0, :2] * process.lengths[1, :2])
+    lengths = np.sqrt(process.lengths[0, :3] * process.lengths[1, :3])
+    there = variables(np.array([[*place[:2], 0.0, 0.0]]), process.touch)[0, :3]
     found: list[tuple[float, float]] = []
     for base in np.unique(rows.base):
         here = rows.base == base
-        gap = (rows.inputs[here][0, :2] - np.array(place[:2])) / lengths
+        gap = (variables(rows.inputs[here][:1], process.touch)[0, :3] - there) / lengths
         for ray in np.unique(direction[here].round(3)):
             on = here & (np.abs(direction - ray) < 2e-3)
             found.append((float((gap**2).sum() + (4.0 * (ray - place[2])) ** 2), size[on].max()))
@@ -272,7 +273,7 @@ def _polynomial(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Po
     mean, std = process.predict(there)
     points = np.vstack([there, rows.inputs])
     values = np.concatenate([mean, rows.values])
-    spread = np.concatenate([np.hypot(std, 2e-3), np.sqrt(rows.noise) / 2.0])
+    spread = np.concatenate([np.hypot(std, 2e-3), np.sqrt(rows.noise + process.scatter**2) / 2.0])
     low, span = points.min(axis=0), np.ptp(points, axis=0)
     low[2:], center = 0.0, low + 0.5 * span
     center[2:] = 0.0
@@ -355,7 +356,7 @@ def _told(
     error = kappa.polynomial(*others.inputs.T) - others.values
     force = np.abs(others.drag * np.expm1(error))
     mean, std = process.predict(others.inputs)
-    off = np.abs(mean - others.values) / np.hypot(std, np.sqrt(others.noise))
+    off = np.abs(mean - others.values) / np.sqrt(std**2 + others.noise + process.scatter**2)
     within = np.abs(left[0]) / (left[1] * process.calibration)
     return {
         "rows": float((~rows.held_out).sum()),

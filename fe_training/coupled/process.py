@@ -1,13 +1,16 @@
 """A Gaussian process of ln kappa that vanishes with friction and wear, exactly.
 
-    ln kappa = xi f(x, y, xi, w) + w h(x, y, xi, w)
+    ln kappa = xi [ln(1 + 0.4 g) + f(p, xi, w)] + w h(p, xi, w)
 
-with x = ln(g/g_touch), y = ln alpha, w = ln(1 + tau_w/mu), and f and h independent Gaussian
-processes with squared-exponential covariances, each with a length for every variable.
+with p = (ln g, ln alpha, (g/g_touch)^1/2) and w = ln(1 + tau_w/mu), and f and h independent
+Gaussian processes with squared-exponential covariances, each with a length for every variable. Of
+the places p the solutions show that kappa is a function of g far from the touch, and of g/g_touch
+near it; the first term is about what friction alone does, and what is expected without data.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -15,13 +18,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LoadProcess", "fit_process"]
+from surrogate.contact.coordinates import log_touch
+
+__all__ = ["LoadProcess", "fit_process", "variables"]
 
 Array = NDArray[np.float64]
 
 _JITTER = 1e-10
-_LENGTHS = ((0.5, 40.0), (0.1, 10.0), (0.05, 10.0), (0.1, 20.0))
-_SIZES = (1e-2, 1e2)
+_LENGTHS = ((0.5, 40.0), (0.1, 10.0), (0.05, 10.0), (0.05, 10.0), (0.1, 20.0))
+_CAPSTAN = 0.4
+_SIZES, _SCATTER = (1e-2, 1e2), (5e-4, 1e-2)
+
+
+def variables(inputs: Array, touch: Sequence[float]) -> Array:
+    """Return the three of the place, xi and w at inputs of shape (points, 4)."""
+    x, y, xi, w = inputs.T
+    return np.stack([x + log_touch(touch, y), y, np.exp(0.5 * x), xi, w], axis=1)
+
+
+def _expected(at: Array) -> Array:
+    """Return ln kappa as it is expected without data, at variables."""
+    return np.asarray(at[:, 3] * np.log1p(_CAPSTAN * np.exp(at[:, 0])))
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +48,17 @@ class LoadProcess:
     Parameters
     ----------
     inputs : ndarray, shape (points, 4)
-        x, y, xi and w.
+        x = ln(g/g_touch), y = ln alpha, xi and w.
     values, noise : ndarray, shape (points,)
-        ln kappa and the variance of its error.
+        ln kappa and the variance of its error, beside that which all share.
+    scatter : float
+        Standard deviation of the error that all share.
     sizes : ndarray, shape (2,)
         Standard deviations of f and h.
-    lengths : ndarray, shape (2, 4)
+    lengths : ndarray, shape (2, 5)
         Their lengths.
+    touch : tuple of float
+        Coefficients of ln g_touch in powers of ln alpha.
     calibration : float
         Factor of the standard deviation, found by leaving bases out.
     """
@@ -45,28 +66,35 @@ class LoadProcess:
     inputs: Array
     values: Array
     noise: Array
+    scatter: float
     sizes: Array
     lengths: Array
+    touch: tuple[float, ...]
     calibration: float = 1.0
 
     def covariance(self, a: Array, b: Array) -> Array:
         """Return the prior covariance of ln kappa at points."""
         from scipy.spatial.distance import cdist
 
+        a, b = variables(a, self.touch), variables(b, self.touch)
         total = np.zeros((len(a), len(b)))
-        for column, size, length in zip((2, 3), self.sizes, self.lengths, strict=True):
+        for column, size, length in zip((3, 4), self.sizes, self.lengths, strict=True):
             decay = np.exp(-0.5 * cdist(a / length, b / length, "sqeuclidean"))
             total += size**2 * np.outer(a[:, column], b[:, column]) * decay
         return total
+
+    @cached_property
+    def _unexpected(self) -> Array:
+        return self.values - _expected(variables(self.inputs, self.touch))
 
     @cached_property
     def _factor(self) -> tuple[Any, Array]:
         from scipy.linalg import cho_factor, cho_solve
 
         matrix = self.covariance(self.inputs, self.inputs)
-        matrix[np.diag_indices_from(matrix)] += self.noise + _JITTER
+        matrix[np.diag_indices_from(matrix)] += self.noise + self.scatter**2 + _JITTER
         factor = cho_factor(matrix, lower=True)
-        return factor, np.asarray(cho_solve(factor, self.values))
+        return factor, np.asarray(cho_solve(factor, self._unexpected))
 
     def predict(self, at: Array) -> tuple[Array, Array]:
         """Return mean and standard deviation of ln kappa at points of shape (n, 4)."""
@@ -77,16 +105,18 @@ class LoadProcess:
         prior = np.array([self.covariance(row[None], row[None])[0, 0] for row in at])
         spread = solve_triangular(factor[0], across.T, lower=True)
         variance = np.maximum(prior - (spread**2).sum(axis=0), 0.0)
-        return across @ weights, self.calibration * np.sqrt(variance)
+        return _expected(variables(at, self.touch)) + across @ weights, self.calibration * np.sqrt(
+            variance
+        )
 
     def log_likelihood(self) -> float:
         """Return the logarithm of the marginal likelihood."""
         factor, weights = self._factor
         halves = np.log(np.diag(factor[0])).sum()
-        return float(-0.5 * self.values @ weights - halves)
+        return float(-0.5 * (self._unexpected) @ weights - halves)
 
     def log_likelihood_slopes(self) -> Array:
-        """Return its derivatives by the logarithms of the two sizes, and of the eight lengths.
+        """Return its derivatives by the logarithms of the scatter, two sizes and ten lengths.
 
         With K the covariance of the data and a = K^-1 values, (a a' - K^-1) : dK / 2.
         """
@@ -99,11 +129,14 @@ class LoadProcess:
             alone = replace(self, sizes=np.where(np.arange(2) == part, self.sizes, 0.0))
             weighted = excess * alone.covariance(self.inputs, self.inputs)
             by_size.append(weighted.sum())
-            for column, length in zip(self.inputs.T, self.lengths[part], strict=True):
+            for column, length in zip(
+                variables(self.inputs, self.touch).T, self.lengths[part], strict=True
+            ):
                 scaled = column / length
                 spread = scaled**2 @ weighted.sum(axis=1) - scaled @ weighted @ scaled
                 by_length.append(spread)
-        return np.array([*by_size, *by_length])
+        by_scatter = self.scatter**2 * np.trace(excess)
+        return np.array([by_scatter, *by_size, *by_length])
 
     def left_out(self, groups: NDArray[Any]) -> tuple[Array, Array]:
         """Return error and standard deviation of each point, its whole group left out."""
@@ -116,27 +149,32 @@ class LoadProcess:
             rows = np.flatnonzero(groups == group)
             block = np.linalg.inv(inverse[np.ix_(rows, rows)])
             error[rows] = -block @ weights[rows]
-            std[rows] = np.sqrt(np.maximum(np.diag(block) - self.noise[rows], 0.0))
+            std[rows] = np.sqrt(
+                np.maximum(np.diag(block) - self.noise[rows] - self.scatter**2, 0.0)
+            )
         return error, self.calibration * std
 
 
-def fit_process(inputs: Array, values: Array, noise: Array, starts: int = 3) -> LoadProcess:
+def fit_process(
+    inputs: Array, values: Array, noise: Array, touch: tuple[float, ...], starts: int = 3
+) -> LoadProcess:
     """Return the process of the largest marginal likelihood.
 
     Parameters
     ----------
-    inputs, values, noise : ndarray
+    inputs, values, noise, touch
         As those of `LoadProcess`.
     starts : int
         Searches, from different lengths.
     """
     from scipy.optimize import minimize
 
-    bounds = [np.log(_SIZES)] * 2 + [np.log(pair) for pair in _LENGTHS] * 2
+    bounds = [np.log(_SCATTER)] + [np.log(_SIZES)] * 2 + [np.log(pair) for pair in _LENGTHS] * 2
 
     def process(parameters: Array) -> LoadProcess:
-        found = np.exp(parameters)
-        return LoadProcess(inputs, values, noise, found[:2], found[2:].reshape(2, 4))
+        scatter, *sizes = np.exp(parameters[:3])
+        lengths = np.exp(parameters[3:]).reshape(2, 5)
+        return LoadProcess(inputs, values, noise, scatter, np.array(sizes), lengths, touch)
 
     def cost(parameters: Array) -> tuple[float, Array]:
         try:

@@ -9,6 +9,7 @@ from made_up_coupled import log_kappa
 from fe_training.coupled.process import LoadProcess, fit_process
 
 RNG = np.random.default_rng(11)
+TOUCH = (0.5, 0.2, 0.4)
 
 
 def points(count):
@@ -27,7 +28,7 @@ def noisy():
     """Places, values with a noise of 1e-3, and the process fitted to them."""
     inputs = points(70)
     values = log_kappa(*inputs.T) + RNG.normal(0.0, 1e-3, 70)
-    return fit_process(inputs, values, np.full(70, 1e-6), starts=1)
+    return fit_process(inputs, values, np.full(70, 1e-6), TOUCH, starts=1)
 
 
 def test_the_process_vanishes_without_load_exactly(noisy):
@@ -54,7 +55,13 @@ def test_a_base_left_out_is_a_process_that_never_saw_it(noisy):
     for group in range(10):
         out = groups == group
         without = LoadProcess(
-            noisy.inputs[~out], noisy.values[~out], noisy.noise[~out], noisy.sizes, noisy.lengths
+            noisy.inputs[~out],
+            noisy.values[~out],
+            noisy.noise[~out],
+            noisy.scatter,
+            noisy.sizes,
+            noisy.lengths,
+            TOUCH,
         )
         mean, own = without.predict(noisy.inputs[out])
         assert mean - noisy.values[out] == pytest.approx(error[out], rel=1e-5, abs=1e-8)
@@ -64,13 +71,14 @@ def test_a_base_left_out_is_a_process_that_never_saw_it(noisy):
 
 def test_the_slopes_of_the_likelihood_are_its_differences(noisy):
     away = replace(noisy, sizes=1.3 * noisy.sizes, lengths=0.8 * noisy.lengths)
-    logs, step = np.log(np.concatenate([away.sizes, away.lengths.ravel()])), 1e-4
+    logs, step = np.log([away.scatter, *away.sizes, *away.lengths.ravel()]), 1e-4
 
     def height(parameters):
         found = np.exp(parameters)
-        return replace(away, sizes=found[:2], lengths=found[2:].reshape(2, 4)).log_likelihood()
+        scatter, sizes, lengths = found[0], found[1:3], found[3:].reshape(2, 5)
+        return replace(away, scatter=scatter, sizes=sizes, lengths=lengths).log_likelihood()
 
-    differences = [(height(logs + d) - height(logs - d)) / (2.0 * step) for d in step * np.eye(10)]
+    differences = [(height(logs + d) - height(logs - d)) / (2.0 * step) for d in step * np.eye(13)]
     # of the order of step**2 of heights of some hundreds, and their rounding over step
     assert away.log_likelihood_slopes() == pytest.approx(differences, rel=1e-4, abs=1e-3)
 
