@@ -163,19 +163,17 @@ class SlidingRecord:
         return self.outcome in (SlidingOutcome.CONVERGED, SlidingOutcome.OUTSIDE_EVIDENCE)
 
     @property
-    def drag(self) -> float:
-        """F_d = F_ss - J, both halves [mu R_w]."""
-        return self.steady_force - self.energy_release_rate
-
-    @property
-    def first_order(self) -> float:
-        """F_d of the law that is exact to first order in friction and wear [mu R_w]."""
-        return 2.0 * (self.wear * self.first_arc + self.friction * self.first_load)
-
-    @property
     def amplification(self) -> float:
-        """kappa = F_d over its first order; 1 without any load [-]."""
-        return self.drag / self.first_order if self.first_order else 1.0
+        """kappa: the force of friction and wear over its first order; 1 without any load [-].
+
+        By the integrals between the zeros of the pressure. Sums over touching nodes, of which
+        F_ss - J consists to the last digits, end between nodes: on a contact of 90 nodes they were
+        off by up to 3 % where the integrals were off by 0.2 %.
+        """
+        first = self.wear * self.first_arc + self.friction * self.first_load
+        return (
+            (self.wear * self.slip_arc + self.friction * self.slip_load) / first if first else 1.0
+        )
 
     @property
     def balance_error(self) -> float:
