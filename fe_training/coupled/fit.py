@@ -39,22 +39,30 @@ KNOWN = 0.01
 #: The same with the base of a row left out, up to which its error counts.
 LEFT_OUT_KNOWN = 2.0 * KNOWN
 
+#: Bound of the error of ln kappa from which on the reach is taken back, by how much at a time, and
+#: how often at most.
+MOST_ERROR, _TAKEN_BACK, _ROUNDS = 0.03, 0.8, 25
+
 #: Largest |ln kappa| of a row that is used. Towards the limit of the load it grows without end, and
 #: rows there would make the process expect as much everywhere.
 MOST = 0.5
 
-#: Factor of the largest error of the rows of a cell.
-SAFETY = 1.5
+#: Factor of the largest error of the rows of a cell, and of the standard deviation where there are
+#: none.
+SAFETY, _DEVIATIONS = 1.5, 3.0
 
 #: Degrees of the polynomial: of x and y together, of xi and w together, and of all four.
-_PLACES, _LOADS, _ALL = 6, 3, 8
+_PLACES, _LOADS, _ALL = 8, 3, 9
 
 #: xi and tau_w/mu in units of which a load has a size and a direction.
 LOAD_UNIT = (0.5, 1.0)
 
+#: Part of the samples that are put on either end of g, and of alpha.
+_MARGIN = 0.06
+
 _NODES = (16, 9, 9)
 _STEPS = 60
-_X_EDGES, _ALPHA_EDGES = (-9.0, -5.0, -2.5), (3.0, 5.0)
+_X_EDGES, _ALPHA_EDGES = (-9.0, -5.0, -2.5, -1.0), (3.0, 5.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,6 +164,7 @@ def fit_amplification(
     left = process.left_out(seen.base)
     process = replace(process, calibration=float(np.sqrt(np.mean((left[0] / left[1]) ** 2))))
     axes, reach = _reach(process, seen, unit)
+    g = np.exp(seen.inputs[:, 0] + log_touch(touch, seen.inputs[:, 1]))
     bare = Amplification(
         touch,
         Polynomial(np.array([[0, 0, 1, 0]]), np.zeros(1)),
@@ -166,9 +175,10 @@ def fit_amplification(
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
         np.zeros((len(_X_EDGES) + 1, len(_ALPHA_EDGES) + 1)),
         about,
-        lowest=float(np.exp(np.min(seen.inputs[:, 0] + log_touch(touch, seen.inputs[:, 1])))),
+        lowest=float(g.min()),
+        highest=float(g.max()),
     )
-    kappa = replace(bare, polynomial=_polynomial(bare, process, seen))
+    kappa = _trimmed(bare, process, seen)
     kappa = replace(kappa, errors=_errors(kappa, process, seen), growth=_growth(kappa))
     return kappa, process, _told(kappa, process, rows, left)
 
@@ -253,12 +263,16 @@ def _powers() -> NDArray[np.int64]:
 
 
 def _samples(kappa: Amplification, count: int, seed: int = 1) -> Array:
-    """Return points that fill the known loads."""
+    """Return points that fill the known loads, the ends of g and alpha among them."""
     from scipy.stats import qmc
 
-    unit = qmc.Sobol(4, seed=seed).random(count)
-    x = kappa.axes[0][0] + unit[:, 0] * (kappa.axes[0][-1] - kappa.axes[0][0])
-    y = kappa.axes[1][0] + unit[:, 1] * (kappa.axes[1][-1] - kappa.axes[1][0])
+    unit = qmc.Sobol(4, seed=seed).random_base2(int(np.log2(count)))
+    place = np.clip((1.0 + 2.0 * _MARGIN) * unit[:, :2] - _MARGIN, 0.0, 1.0)
+    y = kappa.axes[1][0] + place[:, 1] * (kappa.axes[1][-1] - kappa.axes[1][0])
+    touch = log_touch(kappa.touch, y)
+    low = np.maximum(np.log(kappa.lowest), kappa.axes[0][0] + touch)
+    high = np.minimum(np.log(kappa.highest), kappa.axes[0][-1] + touch)
+    x = low + place[:, 0] * (high - low) - touch
     edges = np.array([_edge(z, kappa.largest) for z in unit[:, 2]])
     reach = kappa.reach_at(x, y, unit[:, 2])
     part = (reach * np.sqrt(unit[:, 3]))[:, None]
@@ -269,7 +283,7 @@ def _samples(kappa: Amplification, count: int, seed: int = 1) -> Array:
 def _polynomial(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Polynomial:
     """Return the polynomial that meets the process all over the known loads, and the rows."""
     powers = _powers()
-    there = _samples(kappa, 4096)
+    there = _samples(kappa, 8192)
     mean, std = process.predict(there)
     points = np.vstack([there, rows.inputs])
     values = np.concatenate([mean, rows.values])
@@ -313,25 +327,58 @@ def _share(kappa: Amplification, rows: FitRows) -> Array:
     return np.asarray(kappa.share_at(x, y, xi, np.expm1(w)))
 
 
-def _errors(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
-    """Return bounds by cell, of the rows within reach; the largest where a cell has none.
+def _trimmed(bare: Amplification, process: LoadProcess, rows: FitRows) -> Amplification:
+    """Return kappa with its polynomial, the reach taken back from where it may be far off."""
+    kappa = bare
+    for _ in range(_ROUNDS):
+        kappa = replace(kappa, polynomial=_polynomial(kappa, process, rows))
+        points, bound = _bounds(kappa, process, rows)
+        bad = points[bound > MOST_ERROR]
+        if not len(bad):
+            break
+        reach = kappa.reach.copy()
+        _, direction = load_of(bad[:, 2], np.expm1(bad[:, 3]), kappa.largest)
+        nodes = [
+            np.clip(np.searchsorted(axis, at, side="right") - 1, 0, len(axis) - 2)
+            for axis, at in zip(kappa.axes, (bad[:, 0], bad[:, 1], direction), strict=True)
+        ]
+        for corner in np.ndindex(2, 2, 2):
+            around = tuple(np.add(nodes, np.array(corner)[:, None]))
+            np.minimum.at(reach, around, _TAKEN_BACK * kappa.reach[around])
+        kappa = replace(kappa, reach=reach)
+    return kappa
+
+
+def _bounds(
+    kappa: Amplification, process: LoadProcess, rows: FitRows, seed: int = 3
+) -> tuple[Array, Array]:
+    """Return rows and other known loads, and bounds of |ln kappa - that of finite elements| there.
 
     The error of a row is that of the process to which its whole base is not known, where that is
-    not extrapolation, and how far the polynomial is from the process. It counts in proportion to
-    the share of the reach that its load is.
+    not extrapolation, and how far the polynomial is from the process; anywhere else it is three
+    standard deviations and that. It counts in proportion to the share of the reach that its load
+    is.
     """
     error, std = process.left_out(rows.base)
-    apart = np.abs(kappa.polynomial(*rows.inputs.T) - process.predict(rows.inputs)[0])
-    share = _share(kappa, rows)
-    judged = np.where(std <= LEFT_OUT_KNOWN, np.abs(error), KNOWN * np.minimum(share, 1.0)) + apart
-    judged /= np.clip(share, LEAST_SHARE, 1.0)
+    left_out = SAFETY * np.where(std <= LEFT_OUT_KNOWN, np.abs(error), 0.0)
+    points = np.vstack([rows.inputs, _samples(kappa, 4096, seed)])
+    mean, own = process.predict(points)
+    own[: len(rows)] = np.maximum(left_out, own[: len(rows)])
+    own[len(rows) :] *= _DEVIATIONS
+    x, y, xi, w = points.T
+    share = np.asarray(kappa.share_at(x, y, xi, np.expm1(w)))
+    bound = (own + np.abs(kappa.polynomial(x, y, xi, w) - mean)) / np.clip(share, LEAST_SHARE, 1.0)
     known = share <= 1.0
-    table = np.full(kappa.errors.shape, np.nan)
+    return points[known], bound[known]
+
+
+def _errors(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
+    """Return the largest bounds by cell; the largest of all where a cell has no known load."""
+    points, bound = _bounds(kappa, process, rows)
+    table = np.zeros(kappa.errors.shape)
     for cell in np.ndindex(table.shape):
-        here = known & kappa.in_cell(cell, rows.inputs[:, 0], rows.inputs[:, 1])
-        if here.any():
-            table[cell] = SAFETY * judged[here].max()
-    return np.where(np.isnan(table), np.nanmax(table, initial=KNOWN), table)
+        table[cell] = bound[kappa.in_cell(cell, points[:, 0], points[:, 1])].max(initial=0.0)
+    return np.where(table == 0.0, table.max(), table)
 
 
 def _growth(kappa: Amplification) -> Array:

@@ -8,6 +8,7 @@ touch the wire, and is known up to a share of 1 of the loads that they reach.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -24,7 +25,7 @@ __all__ = ["LEAST_SHARE", "Amplification", "load_of"]
 
 Array = NDArray[np.float64]
 
-LEAST_SHARE = 0.1
+LEAST_SHARE = 0.3
 """Share of the largest known load below which the bound of kappa's error falls no further."""
 
 
@@ -49,13 +50,13 @@ class Amplification:
         Of the cells in x and in y.
     errors : ndarray, shape (cells in x, cells in y)
         Bound of |ln kappa - that of finite elements| at the largest load that is known; in
-        proportion to the load down to a tenth of that, and the same below.
+        proportion to the load down to 0.3 of that, and the same below.
     growth : ndarray, shape (cells in x, cells in y)
         Largest |ln kappa| over xi + w/10.
     about : mapping
         What is told of the data and the fit.
-    lowest : float
-        The lowest g at which kappa is known [-].
+    lowest, highest : float
+        The lowest and the highest g at which kappa is known [-].
     """
 
     touch: tuple[float, ...]
@@ -68,6 +69,7 @@ class Amplification:
     growth: Array
     about: Mapping[str, Any] = field(default_factory=dict, repr=False)
     lowest: float = 0.0
+    highest: float = sys.float_info.max
 
     def log_factor(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return ln kappa; with the nearest load, g and alpha that are known where these are not.
@@ -109,7 +111,7 @@ class Amplification:
         """Return the same at x = ln(g/g_touch) and y = ln alpha."""
         inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
         inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
-        inside = inside & (x + log_touch(self.touch, y) >= self._log_lowest)
+        inside = inside & self._is_within(x + log_touch(self.touch, y))
         size, direction = load_of(xi, wear, self.largest)
         x, y = self._clamped(x, y)
         with np.errstate(all="ignore"):
@@ -138,8 +140,13 @@ class Amplification:
         return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
 
     @cached_property
-    def _log_lowest(self) -> float:
-        return float(np.log(self.lowest)) - 1e-9 if self.lowest else -np.inf
+    def _log_ends(self) -> tuple[float, float]:
+        with np.errstate(divide="ignore"):
+            return float(np.log(self.lowest)) - 1e-9, float(np.log(self.highest)) + 1e-9
+
+    def _is_within(self, log_g: Any) -> Any:
+        low, high = self._log_ends
+        return (log_g >= low) & (log_g <= high)
 
     def _clamped(self, x: Any, y: Any) -> tuple[Any, Any]:
         (left, right), (low, high) = self._ends
@@ -152,7 +159,7 @@ class Amplification:
         size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(x, y, direction)
         free = (x == place[0]) & (y == place[1]) & (size <= reach)
-        free = free & (place[0] + log_touch(self.touch, place[1]) >= self._log_lowest)
+        free = free & self._is_within(place[0] + log_touch(self.touch, place[1]))
         most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
         worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
         known = size <= reach

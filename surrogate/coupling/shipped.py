@@ -27,6 +27,7 @@ def content_of_amplification(kappa: Amplification) -> bytes:
         "touch": list(kappa.touch),
         "largest": list(kappa.largest),
         "lowest": kappa.lowest,
+        "highest": kappa.highest,
         "edges": [list(each) for each in kappa.edges],
     }
     arrays = {
@@ -63,6 +64,7 @@ def amplification_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Amp
             arrays["growth"],
             about,
             float(about["lowest"]),
+            float(about["highest"]),
         )
         _require_shapes(kappa)
     except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:

@@ -122,6 +122,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
             "lowest": kappa.lowest,
+            "highest": kappa.highest,
             "leastShare": LEAST_SHARE,
         }
     }

@@ -29,7 +29,7 @@ def unseen(kappa, count=400):
     xi = reach * LOAD_UNIT[0] * np.minimum(1.0, 2.0 * (1.0 - direction))
     wear = reach * LOAD_UNIT[1] * np.minimum(1.0, 2.0 * direction)
     g = np.exp(x + np.polynomial.polynomial.polyval(y, kappa.touch))
-    known = g >= kappa.lowest
+    known = (g >= kappa.lowest) & (g <= kappa.highest)
     assert known.sum() > 0.5 * count
     at = g, np.exp(y), xi, wear
     return (x[known], y[known]), tuple(each[known] for each in at)

@@ -3,7 +3,7 @@
 // ln kappa, a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu), where it is
 // known, and how far it may be off.
 const KAPPA = (() => {
-  const {touch, terms, axes, reach, largest, edges, errors, lowest, leastShare} = DATA.coupled;
+  const {touch, terms, axes, reach, largest, edges, errors, leastShare} = DATA.coupled, {lowest, highest} = DATA.coupled;
 
   // The coefficients by the power of the first variable, and so on; a number where none is left.
   function nested(rows) {
@@ -60,7 +60,8 @@ const KAPPA = (() => {
     const reached = reachAt(...near, direction), known = size <= reached;
     const xi = known ? s.xi : reached*largest[0]*clamped(2 - 2*direction, 0, 1);
     const wear = known ? s.tau_w/s.mu : reached*largest[1]*clamped(2*direction, 0, 1);
-    const inside = near.every((one, n) => one === place[n]) && g >= lowest*(1 - 1e-9);
+    const inside = near.every((one, n) => one === place[n])
+      && g >= lowest*(1 - 1e-9) && g <= highest*(1 + 1e-9);
     return {inside, free: inside && known, unloaded: size === 0, size, reached, variables: [...near, xi, Math.log1p(wear)]};
   }
 
