@@ -12,7 +12,9 @@ import numpy as np
 
 from fe_training.campaign.store import write_atomically
 from fe_training.coupled.dataset import CoupledData
-from fe_training.coupled.fit import KNOWN, FitRows, fit_amplification, rows_of
+from fe_training.coupled.fit import fit_amplification
+from fe_training.coupled.reach import KNOWN, MOST_ERROR
+from fe_training.coupled.rows import FitRows, rows_of
 from surrogate.basics.files import checksum_line
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, content_of_amplification
@@ -75,8 +77,9 @@ def _card(
         "does not touch the wire, the last ones before the ends of paths among them; "
         f"{int(rows.held_out.sum())} of them are of bases that no fit sees.",
         f"- File: {size / 1e3:.1f} kB, a polynomial of {len(kappa.polynomial.coefficients)} terms.",
-        f"- It counts as known where the standard deviation of ln kappa is at most {KNOWN:g} and "
-        "up to the loads that the nearest paths reached.",
+        f"- It counts as known where the standard deviation of ln kappa is at most {KNOWN:g}, up "
+        "to the loads that the nearest paths reached, as long as the bound of its error is at most "
+        f"{MOST_ERROR:g}.",
         "",
         "| error at bases that no fit sees, within reach | |",
         "|---|---|",

@@ -7,7 +7,9 @@ from made_up_coupled import log_kappa, rows_of_base
 from fe_training.coupled.__main__ import main
 from fe_training.coupled.card import CARD
 from fe_training.coupled.dataset import write_coupled
-from fe_training.coupled.fit import LOAD_UNIT, fit_amplification, rows_of
+from fe_training.coupled.fit import fit_amplification
+from fe_training.coupled.loads import LOAD_UNIT
+from fe_training.coupled.rows import rows_of
 from surrogate import InputError
 from surrogate.contact.archive import read_fitted
 from surrogate.coupling.amplification import load_of
