@@ -12,7 +12,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +21,40 @@ from surrogate.basics.elementwise import dense, log, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
-__all__ = ["LEAST_SHARE", "Amplification", "load_of"]
+__all__ = ["LEAST_SHARE", "Amplification", "Place", "load_of"]
 
 Array = NDArray[np.float64]
 
 LEAST_SHARE = 0.3
 """Share of the largest known load below which the bound of kappa's error falls no further."""
+
+
+class Place(NamedTuple):
+    """Where loads are among the coupled solutions: what all else is looked up by.
+
+    Parameters
+    ----------
+    known : bool or ndarray of bool
+        Whether solutions reach to g, alpha and the load; also without a load only where they
+        reach to g and alpha.
+    x, y, xi, w : float or ndarray
+        The variables of the polynomial.
+    share : float or ndarray
+        The load over the largest one that is known there; nan where none is.
+    """
+
+    known: Any
+    x: Any
+    y: Any
+    xi: Any
+    w: Any
+    share: Any
+
+    def at(self, mask: NDArray[np.bool_]) -> Place:
+        """Return some of the places."""
+        return Place(
+            *(v if np.ndim(v) == 0 else np.broadcast_to(v, mask.shape)[mask] for v in self)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,9 +137,7 @@ class Amplification:
 
     def share_at(self, x: Any, y: Any, xi: Any, wear: Any) -> Any:
         """Return the same at x = ln(g/g_touch) and y = ln alpha."""
-        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
-        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
-        inside = inside & self._is_within(x + log_touch(self.touch, y))
+        inside = self._inside(x, y)
         size, direction = load_of(xi, wear, self.largest)
         x, y = self._clamped(x, y)
         with np.errstate(all="ignore"):
@@ -130,6 +156,50 @@ class Amplification:
         load = xi + 0.1 * _log1p(wear)
         return where(known, self._of_cell(self.growth, g, alpha) * load, np.nan)
 
+    def place(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Place:
+        """Return where a load is, and whether solutions reach there.
+
+        Examples
+        --------
+        >>> from surrogate.coupling.shipped import amplification
+        >>> kappa = amplification()
+        >>> here = kappa.place(0.1, 6.0, 0.01, 0.02)
+        >>> here.known, kappa.log_at(here) == kappa.log_factor(0.1, 6.0, 0.01, 0.02)
+        (True, True)
+        """
+        x, y = self._place(g, alpha)
+        inside = self._inside(x, y)
+        if not np.any(inside):
+            return Place(inside, x, y, xi, wear, np.nan)
+        size, direction = load_of(xi, wear, self.largest)
+        reach = self.reach_at(*self._clamped(x, y), direction)
+        with np.errstate(all="ignore"):
+            share = np.divide(size, reach)
+        return Place(inside & (size <= reach), x, y, xi, _log1p(wear), share)
+
+    def log_at(self, place: Place) -> Any:
+        """Return ln kappa at places that are known."""
+        return self.polynomial(*place[1:5])
+
+    def error_at(self, place: Place) -> Any:
+        """Return the bound of the error of ln kappa at places that are known."""
+        return self._in_cell(self.errors, place) * _between(place.share, LEAST_SHARE, 1.0)
+
+    def most_at(self, place: Place) -> Any:
+        """Return a bound of |ln kappa| at places that are known."""
+        return self._in_cell(self.growth, place) * (place.xi + 0.1 * place.w)
+
+    def _in_cell(self, table: Array, place: Place) -> Any:
+        value = table[self._cell(place.x, place.y)]
+        return float(value) if np.ndim(value) == 0 else value
+
+    def _inside(self, x: Any, y: Any) -> Any:
+        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
+        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
+        low, high = self._log_ends
+        log_g = x + log_touch(self.touch, y)
+        return inside & (log_g >= low) & (log_g <= high)
+
     def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         y = log(alpha)
         return log(g) - log_touch(self.touch, y), y
@@ -144,10 +214,6 @@ class Amplification:
         with np.errstate(divide="ignore"):
             return float(np.log(self.lowest)) - 1e-9, float(np.log(self.highest)) + 1e-9
 
-    def _is_within(self, log_g: Any) -> Any:
-        low, high = self._log_ends
-        return (log_g >= low) & (log_g <= high)
-
     def _clamped(self, x: Any, y: Any) -> tuple[Any, Any]:
         (left, right), (low, high) = self._ends
         return _between(x, left, right), _between(y, low, high)
@@ -158,8 +224,7 @@ class Amplification:
         x, y = self._clamped(*place)
         size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(x, y, direction)
-        free = (x == place[0]) & (y == place[1]) & (size <= reach)
-        free = free & self._is_within(place[0] + log_touch(self.touch, place[1]))
+        free = self._inside(*place) & (size <= reach)
         most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
         worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
         known = size <= reach
