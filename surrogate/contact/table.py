@@ -196,14 +196,15 @@ class CellTable:
     def _compiled(
         self, names: Sequence[str], log_g: Array, log_alpha: Array
     ) -> tuple[Array, list[Array]]:
-        from surrogate.contact.compiled import bicubic, places
+        from surrogate.contact.compiled import at_points
 
         grid = self.grid
         low, high = grid.log_alpha
         counts = grid.short, grid.past, grid.stiffening
         steps = grid.log_g, grid.past / grid.beyond, low, grid.stiffening / (high - low)
-        x, *place = places(log_g, log_alpha, np.array(grid.touch), counts, steps)
-        return x, [bicubic(self.cells(name), *place) for name in names]
+        cells = tuple(self.cells(name) for name in names)
+        x, values = at_points(cells, log_g, log_alpha, np.array(grid.touch), counts, steps)
+        return x, list(values)
 
     def _scattered(self, names: Sequence[str], place: Place) -> list[Array]:
         index = place.along_g * self.grid.stiffening

@@ -251,6 +251,7 @@ def _require_reach(kappa: Amplification, box: Ranges) -> None:
 
 
 def require(error: float, rtol: float | None, who: str, where: str = "") -> None:
+    """Raise an `AccuracyError` where a bound over the ranges is more than was asked for."""
     if rtol is not None and not error <= rtol:
         known = f"is up to {error:.2g}" if error < math.inf else f"is known to nobody{where}"
         remedy = f"rtol={rounded_up(error)} or more" if error < math.inf else "rtol=None"

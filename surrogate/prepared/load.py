@@ -42,7 +42,7 @@ def log1p(x: Any) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class Load:
-    """kappa of the quantities that vary.
+    """The factor kappa of the quantities that vary.
 
     Parameters
     ----------

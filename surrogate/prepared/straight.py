@@ -154,9 +154,9 @@ class Straight:
         if self.times is None and self.plain is None:
             np.multiply(v, self.slope, out=result)
         else:
-            piece, t = self._place(v, room)
+            of = self._place(v, room)
             if self.times is not None:
-                _values(self.times, piece, t, result, room)
+                of(self.times, result)
                 if self.powers:
                     result *= room.kappa[: v.size]
                 if self.slope:
@@ -168,13 +168,13 @@ class Straight:
             np.add(result, self.constant, out=target, casting="same_kind")
             return
         result += self.constant
-        _values(self.plain, piece, t, extra, room)
+        of(self.plain, extra)
         if self.powers:
             extra *= room.kappa[: v.size]
         np.add(result, extra, out=target, casting="same_kind")
 
-    def _place(self, v: Array, room: _Room) -> tuple[Any, Array]:
-        """Return pieces and places in them."""
+    def _place(self, v: Array, room: _Room) -> Callable[[Line, Array], None]:
+        """Return what puts the values of a line at these places into an array."""
         line, x = self._numbers[0], room.x[: v.size]
         np.log(v, out=x)
         start, sign = self.start, self.sign
@@ -185,10 +185,10 @@ class Straight:
             kappa = horner(self.powers, x, room.kappa[: v.size])
             np.exp(kappa, out=kappa)
         if room.compiled:
-            piece = room.piece[: v.size]
-            room.compiled[0](x, start, sign, line.before, line.after, line.short, piece)
-            return piece, x
-        return line.place(x, self.side)
+            steps = line.before, line.after, line.short
+            return lambda one, out: room.compiled(x, start, sign, *steps, one.pieces, out)
+        piece, t = line.place(x, self.side)
+        return lambda one, out: cubics(one.pieces, piece, t, out, room.taken[: t.size])
 
 
 class _Room:
@@ -200,15 +200,8 @@ class _Room:
         lines = force.times is not None or force.plain is not None
         self.compiled: Any = None
         if lines and "numba" in sys.modules:
-            from surrogate.contact.compiled import cubic, line_places
+            from surrogate.contact.compiled import along_line
 
-            self.compiled, self.piece = (line_places, cubic), np.empty(size, np.uint32)
+            self.compiled = along_line
         else:
             self.taken = np.empty((size, 4) if lines else (0, 4))
-
-
-def _values(line: Line, piece: Any, t: Array, result: Array, room: _Room) -> None:
-    if room.compiled:
-        room.compiled[1](line.pieces, piece, t, result)
-    else:
-        cubics(line.pieces, piece, t, result, room.taken[: t.size])
