@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow torture torture-numpy campaign-quick verify docs check format clean
+.PHONY: bench demo test test-slow torture torture-numpy campaign-quick verify docs check format clean
 .DEFAULT_GOAL := demo
 
 $(BIN)/python:
@@ -39,6 +39,12 @@ torture-numpy:
 
 campaign-quick: $(VENV)/.dev-installed
 	$(BIN)/regen-surrogate --quick --jobs 2
+
+# what the pages say of speed: on an idle machine, which these ten minutes write into the pages
+bench: $(VENV)/.dev-installed
+	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	$(BIN)/python scripts/bench-runtime
+	$(BIN)/python scripts/bench-tradeoff
 
 verify: $(VENV)/.dev-installed
 	$(BIN)/python -m fe_training verify --jobs 2

@@ -28,6 +28,8 @@ TICK = 1e-3
 #: Longest call that the loop has room for [s], and how often others are called.
 ROOM, FEW = 1e-4, 1000
 ALPHA, RANGE = 2.5, (1e-4, 1e-3)
+#: A tissue whose friction and wear solutions with both reach.
+RUBBING = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
 EMPTY, PREPARED = "empty function", "prepared"
 MANY = 10**6
 
@@ -46,21 +48,22 @@ def ways(others: Sequence[Contender]) -> list[Way]:
     """Return the ways that are installed, all for the radius of the wire."""
     mu, gamma, _, xi, wear = NUMBERS
     gel = Scene(*NUMBERS, ALPHA)
-    ready = prepare(gel, ranges={"wire_radius": RANGE}, model="table")
+    ready = prepare(gel, ranges={"wire_radius": RANGE}, model="table", law="projected")
+    near = prepare(RUBBING, ranges={"wire_radius": RANGE}, law="coupled")
     found = [
         Way(EMPTY, lambda radius: None),
         Way("plain Eq. (13)", *[lambda radius: plain(mu, gamma, radius, xi, wear)] * 2),
         Way(PREPARED, ready, ready),
+        Way("prepared, coupled", near, near),
     ]
     if find_spec("numba"):
         found.append(Way("prepared, numba", ready, ready, compiled=True))
-    for model, words in (("eq13", "eq13"), ("table", "table"), ("auto", "auto")):
+    for model, law in (("eq13", "projected"), ("table", "projected"), ("auto", "auto")):
 
-        def public(radius: Any, model: str = model) -> Any:
-            scene = Scene(mu, gamma, radius, xi, wear, ALPHA)
-            return cutting_force(scene, model, law="projected").total  # as `prepare` has it
+        def public(radius: Any, model: str = model, law: str = law) -> Any:
+            return cutting_force(Scene(mu, gamma, radius, xi, wear, ALPHA), model, law=law).total
 
-        found.append(Way(f"cutting_force, {words}", public, public))
+        found.append(Way(f"cutting_force, {model}", public, public))
     if find_spec("numba"):
         by_hand = bicubic_by_hand()
         found.append(Way("bicubic by hand, numba", by_hand[0], by_hand[1], compiled=True))

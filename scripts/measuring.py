@@ -1,6 +1,7 @@
 """What the scripts that measure have in common: best times, cold processes, memory."""
 
 import os
+import platform
 import statistics
 import subprocess
 import sys
@@ -10,6 +11,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
+
+import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 #: A scene: mu, Gamma_o, R_w, xi and tau_w.
@@ -29,6 +32,10 @@ if status.is_file():
     peak = 1024 * int(lines[0].split()[1]) if lines else peak
 print(e, peak)
 """
+
+
+def machine() -> str:
+    return f"{platform.machine()} with Python {platform.python_version()}, numpy {np.__version__}"
 
 
 def plain(mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any) -> Any:

@@ -1,13 +1,13 @@
 """What `bench-tradeoff` writes: tables, goals, the figure and the file of costs."""
 
 import json
-import platform
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from measuring import machine
 
 from fe_training.markdown import markdown_table
 from surrogate.basics.figures import (
@@ -150,10 +150,6 @@ Size is that of the file, which all fitted models share, or of the arrays. Error
 {size_table(found)}
 
 {markdown_table(("what", "found", "goal", "met"), rows)}"""
-
-
-def machine() -> str:
-    return f"{platform.machine()} with Python {platform.python_version()}, numpy {np.__version__}"
 
 
 def costs(found: Sequence[Measured]) -> str:

@@ -80,3 +80,18 @@ def test_the_script_writes_page_figure_and_costs(tmp_path):
     assert all(
         (tmp_path / f"tradeoff{ending}").stat().st_size > 5000 for ending in (".svg", ".png")
     )
+
+
+def test_the_script_of_the_runtime_writes_its_table(tmp_path):
+    out = tmp_path / "prepare.md"
+    command = [sys.executable, ROOT / "scripts" / "bench-runtime", "--quick", "--out", out]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    page = out.read_text(encoding="utf-8")
+    assert page.count("\n| ") > 20
+    for words in ("first force of a process", "prepared force of the radius, coupled", "which cho"):
+        assert f"| {words}" in page or words in page
+    assert "| 8 ns |" in page
+    page = (ROOT / "docs" / "prepare.md").read_text(encoding="utf-8")
+    for part in ("the calls", "the loop"):
+        assert page.count(f"<!-- {part}: begin -->") == page.count(f"<!-- {part}: end -->") == 1

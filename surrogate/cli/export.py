@@ -9,7 +9,8 @@ from typing import Any
 
 from surrogate.basics.checks import one_number
 from surrogate.basics.files import written_whole
-from surrogate.choosing.laws import PROJECTED
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import SLIP
 from surrogate.cli.common import Record, add_law_option, add_model_option, print_answer, quantity
 from surrogate.errors import InputError
 from surrogate.prepared.preparing import prepare
@@ -25,8 +26,11 @@ DESCRIPTION = "The force as a program of its own: C, JavaScript, MATLAB/Octave o
 EXAMPLES = """\
 A quantity with one value is fixed, one with two varies between them: the program is a function of
 what varies. It checks its ranges and tests itself; its first lines say what it is and how far it
-may be off. --table writes the table itself instead, a function of all six quantities. With --law
-slip the force is that of the law of slip.
+may be off. --table writes the table itself instead, a function of all six quantities.
+
+Without --law the program has one law of friction and wear for all of its ranges: the cheapest that
+is known to be within --rtol (2 %) of solutions in which the wire rubs. Where none is known, as for
+much friction or wear, it is the projected law with an unknown error, and the first lines say so.
 
 examples:
   wirecut export --format c --shear-modulus 685Pa --toughness 1.6J/m2 \\
@@ -59,8 +63,9 @@ def add_export_options(command: argparse.ArgumentParser) -> None:
     add("--table", action="store_true", help="the whole table: all six quantities vary")
     add("--out", metavar="FILE", help="file to write; printed without it")
     add_model_option(command)
-    add_law_option(command, coupled=False)
+    add_law_option(command, any_law=True)
     command.set_defaults(rtol=None)  # which `prepare` reads as 0.02 where there is a choice
+    command.set_defaults(law=AUTO)
 
 
 def run_export(options: argparse.Namespace) -> int:
@@ -80,7 +85,7 @@ def _table(options: argparse.Namespace) -> tuple[str, Record]:
             f"--table must stand without quantities, but --{set_too[0].replace('_', '-')} was "
             "given; leave out one of them."
         )
-    names = "A and B" if options.law == PROJECTED else "A* and B*"
+    names = "A* and B*" if options.law == SLIP else "A and B"
     what: Record = {"what": f"the table of {names}", "relative_error": math.nan, "warnings": []}
     return whole_table(options.format, options.law), what
 

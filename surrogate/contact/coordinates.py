@@ -33,6 +33,7 @@ __all__ = [
     "coordinates",
     "log_touch",
     "log_touch_slope",
+    "touch_range",
     "vertex",
 ]
 
@@ -127,3 +128,21 @@ def log_touch_slope(coefficients: Sequence[float], log_alpha: Any) -> Any:
     """
     powers = [i * c for i, c in enumerate(coefficients)][1:]
     return log_touch(powers or [0.0], log_alpha)
+
+
+def touch_range(coefficients: Sequence[float], alpha: tuple[float, float]) -> tuple[float, float]:
+    """Return the lowest and the highest g_touch of a range of alpha; 1 without coefficients.
+
+    Examples
+    --------
+    >>> low, high = touch_range((0.0, 1.0), (2.0, 3.0))
+    >>> print(f"{low:.3f} {high:.3f}")
+    2.000 3.000
+    """
+    if not coefficients:
+        return 1.0, 1.0
+    low, high = (float(np.log(a)) for a in alpha)
+    roots: Any = np.polynomial.Polynomial(coefficients).deriv().roots()
+    level = [row.real for row in roots if abs(row.imag) < 1e-9 and low < row.real < high]
+    logs = [float(log_touch(coefficients, row)) for row in (low, high, *level)]
+    return math.exp(min(logs)), math.exp(max(logs))

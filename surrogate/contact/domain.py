@@ -17,7 +17,7 @@ from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 from surrogate.errors import DomainError
 
-__all__ = ["ROUNDING", "Domain", "require_below_highest", "require_inside"]
+__all__ = ["ROUNDING", "Domain", "g_range", "require_below_highest", "require_inside"]
 
 #: The highest g may be missed by this factor, as it comes from a logarithm.
 ROUNDING = 1.0 + 1e-12
@@ -168,6 +168,16 @@ class Domain:
             ends = ", ".join(f"{g:g} (alpha from {steps[g]:g})" for g in sorted(steps)[1:])
             ends = f"{min(steps):g}, {ends}"
         return f"g from {self.g[0]:g} to {ends}, alpha from {self.alpha[0]:g} to {self.alpha[1]:g}"
+
+
+def g_range(ranges: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+    """Return the ends of g = Gamma_o/(mu R_w) in a box of scenes; (0, 0) or infinite at zeros."""
+    ends = []
+    for i, j in ((0, 1), (1, 0)):
+        divisor = ranges["shear_modulus"][j] * ranges["wire_radius"][j]
+        gamma = ranges["toughness"][i]
+        ends.append(gamma / divisor if divisor else (math.inf if gamma else 0.0))
+    return ends[0], ends[1]
 
 
 def _within(quantity: Quantity, ends: tuple[float, float], remedy: str) -> Quantity:

@@ -6,12 +6,13 @@ from there on; along alpha they are equal in ln alpha.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from surrogate.contact.coordinates import log_touch, log_touch_slope
+from surrogate.contact.coordinates import log_touch, log_touch_slope, touch_range
 
 __all__ = ["Grid", "Place"]
 
@@ -72,6 +73,23 @@ class Grid:
         across *= self.stiffening / (high - low)
         return Place(*_cell(along, self.short + self.past), *_cell(across, self.stiffening), x)
 
+    def touched(self, g: tuple[float, float], alpha: tuple[float, float]) -> tuple[slice, slice]:
+        """Return the cells along g and along alpha that a part of the domain touches.
+
+        The number of a cell along g falls as g_touch grows.
+        """
+        low, high = touch_range(self.touch, alpha)
+        first = self._along(math.log(g[0]), math.log(high))
+        last = self._along(math.log(g[1]), math.log(low))
+        begin, end = self.log_alpha
+        per_alpha = self.stiffening / (end - begin)
+        left, right = ((math.log(each) - begin) * per_alpha for each in alpha)
+        return _cells_of(first, last, self.cells), _cells_of(left, right, self.stiffening)
+
+    def _along(self, log_g: float, touch: float) -> float:
+        x = log_g - touch
+        return float(self._rate(x, touch) * x + self.short)
+
     def _rate(self, x: Any, touch: Any) -> Any:
         """Return cells per unit of ln g, in an array that may be changed."""
         if type(x) is float:
@@ -101,6 +119,12 @@ class Grid:
         touch = log_touch(self.touch, log_alpha)
         short = node * (touch - self.log_g) / self.short
         return touch + np.where(node < 0.0, short, node * self.beyond / self.past)
+
+
+def _cells_of(first: float, last: float, cells: int) -> slice:
+    """Return the cells between two places, a rounding more on either side."""
+    low, high = (min(max(int(place), 0), cells - 1) for place in (first - 1e-9, last + 1e-9))
+    return slice(low, high + 1)
 
 
 def _cell(place: Any, cells: int) -> tuple[Any, Any]:

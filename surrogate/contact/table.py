@@ -29,6 +29,8 @@ __all__ = ["CellTable", "TableModel", "cubics"]
 
 Array = NDArray[np.float64]
 
+_BERNSTEIN = np.array([[1, 0, 0, 0], [1, 1 / 3, 0, 0], [1, 2 / 3, 1 / 3, 0], [1, 1, 1, 1]])
+"""Bernstein coefficients of a cubic from its powers."""
 _KEPT = 24  # collapsed tables, some kilobytes each
 
 
@@ -58,6 +60,7 @@ class CellTable:
     nodes: Mapping[str, tuple[Array, Array]]
     _sides: dict[str, list[Slopes]] = field(default_factory=dict, init=False, repr=False)
     _cells: dict[str, Array] = field(default_factory=dict, init=False, repr=False)
+    _bounds: dict[str, tuple[Array, Array]] = field(default_factory=dict, init=False, repr=False)
     _quarters: dict[str, list[Array]] = field(default_factory=dict, init=False, repr=False)
     _rows: dict[str, dict[int, tuple[float, ...]]] = field(
         default_factory=dict, init=False, repr=False
@@ -98,6 +101,28 @@ class CellTable:
         if name not in self._cells:
             self._cells[name] = np.concatenate([_coefficients(side) for side in self.sides(name)])
         return self._cells[name]
+
+    def between(
+        self, name: str, g: tuple[float, float], alpha: tuple[float, float]
+    ) -> tuple[float, float]:
+        """Return bounds of a function all over a part of the domain: of the cells that it touches.
+
+        A polynomial is between the least and the largest of its Bernstein coefficients.
+        """
+        rows, columns = self.grid.touched(g, alpha)
+        least, most = self._ends(name)
+        return float(least[rows, columns].min()), float(most[rows, columns].max())
+
+    def _ends(self, name: str) -> tuple[Array, Array]:
+        """Return bounds of a function in every cell."""
+        if name not in self._bounds:
+            bernstein = _BERNSTEIN @ self.cells(name).reshape(-1, 4, 4) @ _BERNSTEIN.T
+            shape = self.grid.cells, self.grid.stiffening
+            self._bounds[name] = (
+                bernstein.min(axis=(1, 2)).reshape(shape),
+                bernstein.max(axis=(1, 2)).reshape(shape),
+            )
+        return self._bounds[name]
 
     def sides(self, name: str) -> list[Slopes]:
         """Return a function at the nodes on either side of the touch, with its derivatives."""
@@ -171,14 +196,15 @@ class CellTable:
     def _compiled(
         self, names: Sequence[str], log_g: Array, log_alpha: Array
     ) -> tuple[Array, list[Array]]:
-        from surrogate.contact.compiled import bicubic, places
+        from surrogate.contact.compiled import at_points
 
         grid = self.grid
         low, high = grid.log_alpha
         counts = grid.short, grid.past, grid.stiffening
         steps = grid.log_g, grid.past / grid.beyond, low, grid.stiffening / (high - low)
-        x, *place = places(log_g, log_alpha, np.array(grid.touch), counts, steps)
-        return x, [bicubic(self.cells(name), *place) for name in names]
+        cells = tuple(self.cells(name) for name in names)
+        x, values = at_points(cells, log_g, log_alpha, np.array(grid.touch), counts, steps)
+        return x, list(values)
 
     def _scattered(self, names: Sequence[str], place: Place) -> list[Array]:
         index = place.along_g * self.grid.stiffening

@@ -6,6 +6,7 @@ floats alone is collapsed to floats, so that an array of radii costs one polynom
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Polynomial"]
+__all__ = ["Polynomial", "horner"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,10 +44,53 @@ class Polynomial:
 
     def __call__(self, *variables: Any) -> Any:
         """Return the value at floats or at arrays that broadcast."""
-        return _horner(self._nested, variables)
+        return _horner(self.nested, variables)
+
+    def collapsed(self, values: Sequence[float | None]) -> Polynomial:
+        """Return the polynomial of the variables whose value is None, with the others put in.
+
+        Examples
+        --------
+        >>> product = Polynomial(np.array([[1, 1], [0, 2]]), np.array([2.0, 1.0]))
+        >>> product.collapsed((None, 3.0))(5.0)
+        39.0
+        """
+        left = [i for i, value in enumerate(values) if value is None]
+        total: dict[tuple[int, ...], float] = {}
+        for row, coefficient in zip(self.powers.tolist(), self.coefficients.tolist(), strict=True):
+            for power, value in zip(row, values, strict=True):
+                coefficient *= 1.0 if value is None else value**power
+            key = tuple(row[i] for i in left)
+            total[key] = total.get(key, 0.0) + coefficient
+        powers = np.array(list(total), np.int64).reshape(-1, len(left))
+        return Polynomial(powers, np.array(list(total.values())))
+
+    def about(self, center: Sequence[float]) -> Polynomial:
+        """Return the polynomial of the variables less those of a center.
+
+        Terms that cancel far from 0 do not there, so that it may be evaluated in fewer digits.
+
+        Examples
+        --------
+        >>> square = Polynomial(np.array([[2]]), np.array([1.0]))
+        >>> square.about([3.0])(0.5)
+        12.25
+        """
+        terms = dict(zip(map(tuple, self.powers.tolist()), self.coefficients.tolist(), strict=True))
+        for variable, middle in enumerate(center):
+            moved: dict[tuple[int, ...], float] = {}
+            for powers, coefficient in terms.items():
+                power = powers[variable]
+                for lower in range(power + 1):
+                    key = (*powers[:variable], lower, *powers[variable + 1 :])
+                    part = coefficient * math.comb(power, lower) * middle ** (power - lower)
+                    moved[key] = moved.get(key, 0.0) + part
+            terms = moved
+        return Polynomial(np.array(list(terms)), np.array(list(terms.values())))
 
     @cached_property
-    def _nested(self) -> Any:
+    def nested(self) -> Any:
+        """The coefficients as lists in lists: by the power of the first variable, and so on."""
         return _nested(self.powers.tolist(), self.coefficients.tolist())
 
     @cached_property
@@ -60,6 +104,21 @@ class Polynomial:
         factors = self.coefficients[there] * powers[:, variable]
         powers[:, variable] -= 1
         return Polynomial(powers, factors)
+
+
+def horner(powers: Sequence[float], x: NDArray[np.float64], out: Any) -> Any:
+    """Return a polynomial of one variable by its coefficients, in `out`.
+
+    Examples
+    --------
+    >>> horner((1.0, 2.0), np.array([3.0]), np.empty(1))
+    array([7.])
+    """
+    out[...] = powers[-1]
+    for coefficient in powers[-2::-1]:
+        out *= x
+        out += coefficient
+    return out
 
 
 def _nested(powers: Sequence[Sequence[int]], coefficients: Sequence[float]) -> Any:

@@ -20,8 +20,9 @@ class Dialect:
         Its name.
     comment : str
         What begins a line of comment.
-    log, lowest, highest, floor : str
-        Its logarithm, minimum, maximum and rounding down, as functions.
+    log, lowest, highest, floor, exp, log1p : str
+        Its logarithm, minimum, maximum, rounding down, exponential and logarithm of 1 and more, as
+        functions.
     declare : str
         What declares a local number.
     integer : str
@@ -42,6 +43,8 @@ class Dialect:
     lowest: str
     highest: str
     floor: str
+    exp: str
+    log1p: str
     declare: str
     integer: str
     end: str
@@ -74,24 +77,33 @@ DIALECTS = {
     each.name: each
     for each in (
         Dialect(
-            *("c", "//", "log", "fmin", "fmax", "floor", "double ", "int ", ";"),
+            *("c", "//", "log", "fmin", "fmax", "floor", "exp", "log1p", "double ", "int ", ";"),
             "static const double {name}[] = {{\n  {values}\n}};",
             "NAN",
         ),
         Dialect(
-            *("javascript", "//", "Math.log", "Math.min", "Math.max", "Math.floor"),
+            *(
+                "javascript",
+                "//",
+                "Math.log",
+                "Math.min",
+                "Math.max",
+                "Math.floor",
+                "Math.exp",
+                "Math.log1p",
+            ),
             *("let ", "let ", ";"),
             "const {name} = [\n  {values}\n];",
             "NaN",
         ),
         Dialect(
-            *("matlab", "%", "log", "min", "max", "floor", "", "", ";"),
+            *("matlab", "%", "log", "min", "max", "floor", "exp", "log1p", "", "", ";"),
             "{name} = [ ...\n  {values} ];",
             "NaN",
             1,
         ),
         Dialect(
-            *("python", "#", "log", "min", "max", "floor", "", "", ""),
+            *("python", "#", "log", "min", "max", "floor", "exp", "log1p", "", "", ""),
             "{name} = (\n  {values},\n)",
             "nan",
         ),

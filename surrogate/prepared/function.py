@@ -17,7 +17,7 @@ from surrogate.contact.fitted import PROJECTED
 from surrogate.errors import DomainError, InputError
 from surrogate.prepared.inverse import inverse, is_monotonic
 from surrogate.prepared.namespaces import evaluate_elsewhere, is_foreign
-from surrogate.prepared.plan import ARC, LOAD, Plan
+from surrogate.prepared.plan import ARC, LOAD, RUBBING, WITHOUT_SHEAR, Plan
 from surrogate.scene import NAMES, QUANTITIES
 
 __all__ = ["OUTSIDE", "ForceFunction"]
@@ -43,10 +43,14 @@ class ForceFunction:
     plan : Plan
         How it is evaluated.
     relative_error : float
-        Proven bound of the relative error beside the finite elements of the frictionless contact,
-        anywhere in the ranges [-], under the law of dissipation; nan where there is none.
+        Proven bound of the relative error anywhere in the ranges [-], beside what `beside` says;
+        nan where there is none.
     data : mapping of str to str
         What the coefficients come from.
+    fit_error : float
+        The part of the models: beside finite elements of the force's own law [-].
+    beside : str, default "without shear on the wire"
+        On which finite elements: "without shear on the wire", or "on which the wire rubs".
 
     References
     ----------
@@ -66,6 +70,8 @@ class ForceFunction:
     plan: Plan
     relative_error: float
     data: Mapping[str, str] = field(repr=False)
+    fit_error: float
+    beside: str = WITHOUT_SHEAR
 
     @property
     def varying(self) -> tuple[str, ...]:
@@ -95,7 +101,7 @@ class ForceFunction:
 
     @property
     def law(self) -> str:
-        """The law of dissipation, "projected" or "slip"."""
+        """The law of dissipation: "projected", "slip" or "coupled"."""
         return self.plan.law
 
     @cached_property
@@ -294,9 +300,16 @@ class ForceFunction:
         )
         models = ", ".join(f"{term} by {model}" for term, model in self.terms.items())
         law = "" if self.law == PROJECTED else f", law of {self.law}"
-        known = self.relative_error == self.relative_error
-        error = f"up to {100.0 * self.relative_error:.2g} %" if known else "unknown"
-        return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; error {error}"
+        error = f"error {_percent(self.relative_error)}"
+        if self.beside == RUBBING and self.law == PROJECTED and self.terms:
+            law = ", projected law"
+            error = f"error of the law {_percent(self.relative_error)}"
+            error += f", of the models {_percent(self.fit_error)}"
+        return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; {error}"
+
+
+def _percent(error: float) -> str:
+    return f"up to {100.0 * error:.2g} %" if error == error else "unknown"
 
 
 def _is_known(outside: object) -> bool:

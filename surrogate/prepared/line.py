@@ -88,9 +88,36 @@ class Line:
         """Return the values at ln g."""
         return self.values(*self.place(log_g - self.touch))
 
+    def between(self, low: Array, high: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Return bounds of the values and of the slopes in intervals of ln g, each in one piece.
+
+        A polynomial is between the least and the largest of its Bernstein coefficients.
+        """
+        middle = 0.5 * (low + high) - self.touch
+        rate = np.where(middle < 0.0, self.before, self.after)
+        piece = np.floor(rate * middle + self.short).astype(np.intp)
+        begin, end = (
+            np.clip(rate * (edge - self.touch) + self.short - piece, 0.0, 1.0)
+            for edge in (low, high)
+        )
+        a, b, c, d = self.pieces[piece].T
+        width = end - begin
+        a = a + begin * (b + begin * (c + begin * d))
+        b = width * (b + begin * (2.0 * c + 3.0 * begin * d))
+        c, d = width**2 * (c + 3.0 * begin * d), width**3 * d
+        per_x = rate / np.where(width > 0.0, width, 1.0)
+        return (
+            _bounds(a, a + b / 3.0, a + (2.0 * b + c) / 3.0, a + b + c + d),
+            _bounds(*(per_x * each for each in (b, b + c, b + 2.0 * c + 3.0 * d))),
+        )
+
     def with_pieces(self, pieces: Array) -> Line:
         """Return a line of other coefficients."""
         return Line(self.touch, self.before, self.after, self.short, pieces)
+
+
+def _bounds(*values: Array) -> tuple[Array, Array]:
+    return np.minimum.reduce(values), np.maximum.reduce(values)
 
 
 def line_of(table: CellTable, name: str, log_alpha: float) -> Line:

@@ -1,9 +1,10 @@
 """What a prepared force does at a call, and how: floats and blocks of numbers through one plan.
 
-    F_ss/T = Gamma_o + 2 R_w [tau_w A + xi mu B],
+    F_ss/T = Gamma_o + 2 R_w [tau_w A + xi mu B] kappa,
 
 with A and B each of Eq. (13) (A = 2, B = 2 + g/2), or of another closed form, or of the table. At
-one alpha the table is a `Line`; where also tau_w, xi and mu are fixed, both lines are one.
+one alpha the table is a `Line`; where also tau_w, xi and mu are fixed, both lines are one. kappa is
+1 but under the law "coupled", where the table gives both terms.
 """
 
 from __future__ import annotations
@@ -17,16 +18,33 @@ import numpy as np
 
 from surrogate.basics.elementwise import log
 from surrogate.contact.closed_forms import ClosedForm
+from surrogate.contact.domain import g_range
 from surrogate.contact.fitted import PROJECTED
 from surrogate.contact.table import TableModel
+from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.model import CoupledModel
 from surrogate.prepared.line import Line, line_of, summed
-from surrogate.prepared.proof import g_range
+from surrogate.prepared.load import Load, Strength
 from surrogate.prepared.straight import Straight
 from surrogate.scene import NAMES
 
-__all__ = ["ALPHA", "ARC", "GAMMA", "LOAD", "MU", "RADIUS", "WEAR", "XI", "Plan"]
+__all__ = [
+    "ALPHA",
+    "ARC",
+    "GAMMA",
+    "LOAD",
+    "MU",
+    "RADIUS",
+    "RUBBING",
+    "WEAR",
+    "WITHOUT_SHEAR",
+    "XI",
+    "Plan",
+]
 
 ARC, LOAD = "arc", "normal_load"
+WITHOUT_SHEAR, RUBBING = "without shear on the wire", "on which the wire rubs"
+"""The finite elements beside which an error is."""
 ROUNDING = 1e-9
 MU, GAMMA, RADIUS, XI, WEAR, ALPHA = NAMES
 FACTORS = {ARC: (WEAR, RADIUS), LOAD: (RADIUS, XI, MU)}
@@ -51,6 +69,8 @@ class Plan:
         "arc" and "normal_load", as far as the table gives them.
     law : str
         The law of dissipation, which says what these are; that of the table.
+    kappa : Amplification, optional
+        What the terms of the table are multiplied by, known all over the ranges.
     """
 
     varying: tuple[str, ...]
@@ -59,6 +79,12 @@ class Plan:
     table: TableModel | None = field(repr=False)
     of_table: tuple[str, ...]
     law: str = PROJECTED
+    kappa: Amplification | None = field(default=None, repr=False)
+
+    @cached_property
+    def load(self) -> Load | None:
+        """kappa of what varies; None where it is 1."""
+        return None if self.kappa is None else Load(self.kappa, self.fixed)
 
     @cached_property
     def fixed(self) -> dict[str, float]:
@@ -95,26 +121,34 @@ class Plan:
         return lambda value: float(self.of(**fixed, **{name: value}))
 
     @cached_property
-    def straight(self) -> Straight | None:
+    def straight(self) -> Straight | Strength | None:
         """The force of the one quantity that varies at one alpha; None elsewhere."""
         if len(self.varying) != 1 or self.varying == (ALPHA,):
             return None
         (name,) = self.varying
+        if self.load and name == MU and self.fixed[WEAR]:
+            return None  # kappa is of two variables then
         products = [(self._product(*term, name), name in term[1]) for term in self.free]
         constant = sum(value for value, contains in products if not contains)
         slope = sum(value for value, contains in products if contains)
-        factors = {term: self._product(2.0, names, name) for term, names in FACTORS.items()}
+        factors = self.factors(name)
         if name in (XI, WEAR):
-            log_g = log(self._product(1.0, (GAMMA,)) / self._product(1.0, (MU, RADIUS)))
-            for term, line in self.lines.items():
-                value = factors[term] * line.number(log_g)
-                constant, slope = (
-                    (constant, slope + value)
-                    if name in FACTORS[term]
-                    else (constant + value, slope)
-                )
-            return Straight(constant, slope, 0.0, 1.0, None, None)
+            return self._of_strength(name, constant, slope, factors)
         return self._on_lines(name, constant, slope, factors)
+
+    def _of_strength(
+        self, name: str, constant: float, slope: float, factors: dict[str, float]
+    ) -> Straight | Strength:
+        """Return the force of xi or tau_w, at one g."""
+        log_g = log(self._product(1.0, (GAMMA,)) / self._product(1.0, (MU, RADIUS)))
+        rest, rate = (0.0, 0.0) if self.load else (constant, slope)
+        for term, line in self.lines.items():
+            value = factors[term] * line.number(log_g)
+            rest, rate = (rest, rate + value) if name in FACTORS[term] else (rest + value, rate)
+        if self.load is None:
+            return Straight(rest, rate, 0.0, 1.0, None, None)
+        mu = self.fixed[MU] if name == WEAR else None
+        return Strength(constant, rest, rate, mu, self.load.powers())
 
     def _on_lines(
         self, name: str, constant: float, slope: float, factors: dict[str, float]
@@ -137,7 +171,12 @@ class Plan:
             summed(times, factors) if times else None,
             summed(plain, factors) if plain else None,
             self._side(touch),
+            self.load.powers(touch) if self.load else (),
         )
+
+    def factors(self, name: str) -> dict[str, float]:
+        """Return what A and B are multiplied by, but for the one quantity that varies."""
+        return {term: self._product(2.0, names, name) for term, names in FACTORS.items()}
 
     def _side(self, touch: float) -> int:
         """Return -1 or 1 where the whole range is short of or past the touch, else 0."""
@@ -171,7 +210,8 @@ class Plan:
         if len(self.of_table) < 2:
             plain = self._part(self.form, six, [t for t in (ARC, LOAD) if t not in self.of_table])
         if self.table is not None:
-            table = self._part(self.table, six, list(self.of_table))
+            model = CoupledModel(self.table, self.kappa) if self.kappa else self.table
+            table = self._part(model, six, list(self.of_table))
         slopes = dict(zip(NAMES, (a + b for a, b in zip(plain, table, strict=True)), strict=True))
         return slopes | {GAMMA: slopes[GAMMA] - 1.0}
 
@@ -198,17 +238,18 @@ class Plan:
         xi, wear, alpha = values[XI], values[WEAR], values[ALPHA]
         friction, worn = self.form.terms(mu, gamma, radius, xi, wear, alpha)
         total = gamma
+        kappa = self.load.factor(values) if self.load and self.of_table else None
         if self.of_table:
             log_g = log(gamma / (mu * radius))
             if self.one_line is not None:
                 value = self._line(self.one_line, log_g)
-                total = total + radius * value
+                total = total + _times(radius * value, kappa)
             else:
                 arc, load = self._functions(log_g, alpha)
                 if ARC in self.of_table:
-                    total = total + 2.0 * (wear * radius) * arc
+                    total = total + _times(2.0 * (wear * radius) * arc, kappa)
                 if LOAD in self.of_table:
-                    total = total + 2.0 * (radius * (xi * mu)) * load
+                    total = total + _times(2.0 * (radius * (xi * mu)) * load, kappa)
         if LOAD not in self.of_table:
             total = total + friction
         if ARC not in self.of_table:
@@ -240,3 +281,7 @@ class Plan:
         if isinstance(log_g, np.ndarray):
             return line.values(*line.place(log_g - line.touch))
         return line.number(log_g)
+
+
+def _times(term: Any, kappa: Any) -> Any:
+    return term if kappa is None else term * kappa

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from surrogate.basics.checks import RTOL, items, mapping, one_number
+from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
-from surrogate.choosing.choice import rounded_up
-from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP, of_law
-from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
-from surrogate.contact.domain import Domain
-from surrogate.contact.table import TableModel
-from surrogate.errors import AccuracyError, DomainError, InputError
+from surrogate.choosing.candidates import TERMS
+from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.contact.closed_forms import ClosedForm
+from surrogate.errors import InputError
+from surrogate.prepared.deciding import Parts, Ranges, cheapest, named, of_any_law, require
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import ALPHA, Plan
-from surrogate.prepared.proof import force_error, g_range, lowest_of_highest
 from surrogate.scene import NAMES, QUANTITIES, Scene
 
-__all__ = ["data_of", "prepare"]
+__all__ = ["prepare"]
 
-Ranges = dict[str, tuple[float, float]]
-DEFAULT_RTOL = 0.02
 _DEFAULTS = {"friction_coefficient": 0.0, "wear_strength": 0.0, "stiffening_exponent": 2.0}
 _STRENGTHS = {"arc": "wear_strength", "normal_load": "friction_coefficient"}
 _EXAMPLE = "{'wire_radius': (1e-4, 1e-3)}"
@@ -35,7 +29,7 @@ def prepare(
     ranges: Mapping[str, tuple[float, float]] | None = None,
     model: str = AUTO,
     rtol: float | None = None,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> ForceFunction:
     """Return the force as a function of the quantities that vary, decided and proven once.
 
@@ -54,13 +48,20 @@ def prepare(
     model : str, default "auto"
         "auto" for what is cheapest and has a proven error of at most `rtol` all over the ranges,
         term by term; "table"; "eq13", "high-toughness", "low-toughness" or "friction-free". Under
-        the law "slip" the table is what there is, and "auto" stands for it.
+        the laws "slip" and "coupled" the table is what there is, and "auto" stands for it.
     rtol : float, optional
-        Largest relative error of the force that will do [-]; None for any, which with "auto" and
-        the law "projected" is 0.02.
-    law : str, default "projected"
+        Largest relative error of the force that will do [-]. None for any, which with the model
+        "auto" and the law "projected" is 0.02; with the law "auto" it is 0.02 where one is known to
+        keep it, else the best there is. With the laws "auto" and "coupled" it is the error beside
+        finite elements on which the wire rubs.
+    law : str, default "auto"
         The law of dissipation, as `cutting_force` takes it: "projected" for Eq. (S2), "slip" for
-        the balance of energy to first order in tau_w and xi.
+        the balance of energy to first order in tau_w and xi, "coupled" for the stresses acting on
+        the body, which has to be known all over the ranges. "auto" takes one law for all scenes of
+        the ranges: the cheapest whose error beside finite elements on which the wire rubs is proven
+        to be at most `rtol` all over them. Where nobody knows that error it is "projected", with
+        effective strengths tau_w and xi: `relative_error` is nan then, and `fit_error` that beside
+        finite elements of this law. Closed forms are of the law "projected".
 
     Returns
     -------
@@ -75,15 +76,18 @@ def prepare(
     UnknownModelError
         If there is no such model.
     DomainError
-        If the ranges leave the domain of the table and it is needed.
+        If the ranges leave the domain of the table and it is needed, or under the law "coupled" the
+        loads that its solutions reach.
     AccuracyError
         If `rtol` is not met all over the ranges; the message names the best bound.
 
     Notes
     -----
     Range of validity: the ranges. The bound of error holds all over them: it is made of the
-    measured bounds of all cells of (g, alpha) that they touch, not of samples. Under the law "slip"
-    there is none, and it is nan, where the ranges come near the g at which the crack's tip touches
+    measured bounds of all cells of (g, alpha) that they touch, not of samples. That "coupled" is
+    known all over them is proven in boxes of scenes, which are halved until the largest load of
+    each is below its least reach, or one of their corners is beyond it. Under the law "slip" there
+    is no bound, and it is nan, where the ranges come near the g at which the crack's tip touches
     the wire, and beyond it at alpha up to 3: the slip there depends on how sharp the tip is.
 
     References
@@ -94,39 +98,34 @@ def prepare(
     --------
     >>> gel = Scene(685.0, 1.6, 0.25e-3, friction_coefficient=0.0, wear_strength=7750.0)
     >>> force = prepare(gel, ranges={"wire_radius": (1e-4, 1e-3)})
-    >>> force.monotonic, force.terms, force.relative_error <= 0.02
-    ('rising', {'wear': 'table'}, True)
+    >>> force.monotonic, force.terms, force.law, force.fit_error <= 0.02, force.relative_error
+    ('rising', {'wear': 'table'}, 'projected', True, nan)
     >>> print(f"{1e3 * force.radius_for(7.0):.3f} mm")
     0.244 mm
+    >>> tissue = Scene(10e3, 5.0, 0.5e-3, 0.02, 1500.0, 6.0)
+    >>> force = prepare(tissue, ranges={"wire_radius": (4e-4, 1e-3)})
+    >>> force.law, force.relative_error <= 0.05
+    ('coupled', True)
     """
     box = _box(fixed, varying, ranges)
-    if isinstance(law, str) and law == COUPLED:
-        raise InputError(
-            f"law must be one of {PROJECTED}, {SLIP} to prepare a force, but is {law!r}; choose "
-            f"one, or call cutting_force with law={law!r}."
-        )
-    chosen = of_law(model, law)
     tolerance = None if rtol is None else one_number(RTOL, rtol)
     terms = [term for term in TERMS if box[_STRENGTHS[term]][1] > 0.0]
-    if is_auto(chosen):
-        parts = _cheapest(box, terms, DEFAULT_RTOL if tolerance is None else tolerance)
-    else:
-        parts = _named(chosen, box, terms)
-        where = "" if law == PROJECTED else ", as it is where the crack's tip touches the wire"
-        _require(parts.error, tolerance, repr(parts.name), where)
     _require_numbers(box)
-    plan = Plan(tuple(varying), box, parts.form, parts.table, parts.of_table, law)
-    return ForceFunction(plan, parts.error, data_of(parts.table))
+    return _decided(box, terms, model, law, tolerance).force(tuple(varying), box)
 
 
-class _Parts(NamedTuple):
-    """What gives the terms: the table some of them, a closed form the others; and the error."""
-
-    name: str
-    of_table: tuple[str, ...]
-    table: TableModel | None
-    form: Any
-    error: float
+def _decided(box: Ranges, terms: list[str], model: Any, law: Any, rtol: float | None) -> Parts:
+    if isinstance(law, str) and law == AUTO:
+        if is_auto(model) or not isinstance(force_model(model), ClosedForm):
+            return of_any_law(box, terms, model, rtol)
+        law = PROJECTED  # as all closed forms are
+    chosen = of_law(model, law)
+    if is_auto(chosen):
+        return cheapest(box, terms, DEFAULT_RTOL if rtol is None else rtol)
+    parts = named(chosen, box, terms)
+    where = "" if law == PROJECTED else ", as it is where the crack's tip touches the wire"
+    require(parts.error, rtol, repr(parts.name), where)
+    return parts
 
 
 def _box(fixed: Any, varying: Any, ranges: Any) -> Ranges:
@@ -183,84 +182,6 @@ def _values(fixed: Any, varying: tuple[str, ...]) -> dict[str, Any]:
     return values
 
 
-def _cheapest(box: Ranges, terms: list[str], rtol: float) -> _Parts:
-    """Return as few terms of the table as will do."""
-    known = candidates()
-    choices = [(), *((term,) for term in terms), tuple(terms)]
-    errors = {}
-    for choice in dict.fromkeys(choices):
-        models = {term: OUTSIDE if term in choice else FREE for term in terms}
-        errors[choice] = force_error(known, box, models, {term: term for term in terms})
-        if errors[choice] <= rtol:
-            return _parts(known.fitted.models[OUTSIDE], choice, box, errors[choice])
-    if terms:
-        _require_domain(known.limits, box)
-    _require(min(errors.values()), rtol, "the table")
-    raise AssertionError("an error above rtol is refused")
-
-
-def _parts(table: Any, of_table: tuple[str, ...], box: Ranges, error: float) -> _Parts:
-    """Return the terms of a table, beside Eq. (13)."""
-    if of_table:
-        _require_domain(table.limits, box)
-    return _Parts(table.name, of_table, table if of_table else None, FORCE_MODELS[FREE], error)
-
-
-def _named(model: object, box: Ranges, terms: list[str]) -> _Parts:
-    """Return the terms of a model."""
-    chosen = force_model(model)
-    if isinstance(chosen, TableModel):
-        return _parts(chosen, tuple(terms), box, _error_of_table(chosen, box, terms))
-    if not isinstance(chosen, ClosedForm):
-        raise InputError(
-            "model must be one that a force can be prepared by, but "
-            f"{chosen.name!r} is neither the table nor a closed form without a power; choose "
-            "model='auto', 'table' or 'eq13'."
-        )
-    error = math.nan
-    if chosen.name == FREE:
-        models, functions = dict.fromkeys(terms, FREE), {term: term for term in terms}
-        error = force_error(candidates(), box, models, functions)
-    return _Parts(chosen.name, (), None, chosen, error if error < math.inf else math.nan)
-
-
-def _error_of_table(table: TableModel, box: Ranges, terms: list[str]) -> float:
-    """Return the bound of the force's error; nan where nobody knows it."""
-    if not terms:
-        return 0.0
-    fitted = candidates().fitted
-    if getattr(fitted.models[OUTSIDE], "table", None) is not table.table:
-        return math.nan  # the bounds are of another table
-    if table.law != PROJECTED and fitted.slip_bounds is None:
-        return math.nan
-    known = candidates(law=table.law)
-    functions = dict(zip(TERMS, known.terms, strict=True))
-    error = force_error(known, box, dict.fromkeys(terms, OUTSIDE), functions)
-    return error if error < math.inf else math.nan
-
-
-def _require(error: float, rtol: float | None, who: str, where: str = "") -> None:
-    if rtol is not None and not error <= rtol:
-        known = f"is up to {error:.2g}" if error < math.inf else f"is known to nobody{where}"
-        remedy = f"rtol={rounded_up(error)} or more" if error < math.inf else "rtol=None"
-        raise AccuracyError(
-            f"rtol must be met all over the ranges, but rtol = {rtol:g} is not: the error of {who} "
-            f"{known}; give {remedy}, or narrower ranges."
-        )
-
-
-def _require_domain(limits: Domain, box: Ranges) -> None:
-    alpha, g = box[ALPHA], g_range(box)
-    limits.alpha_quantity.checked(alpha[0])
-    limits.alpha_quantity.checked(alpha[1])
-    low, high = limits.g[0], lowest_of_highest(limits, alpha)
-    if not (low <= g[0] and g[1] <= high):
-        raise DomainError(
-            f"g = Gamma_o/(mu R_w) must be from {low:g} to {high:g} all over the ranges, but is "
-            f"from {g[0]:.4g} to {g[1]:.4g}; give narrower ranges, or choose model='eq13'."
-        )
-
-
 def _require_numbers(box: Ranges) -> None:
     """Refuse scenes whose products leave the range of numbers, so that no call has to look."""
     divisor = [box["shear_modulus"][i] * box["wire_radius"][i] for i in (0, 1)]
@@ -275,14 +196,3 @@ def _require_numbers(box: Ranges) -> None:
             "the products of the ranges must be in the range of numbers, but mu R_w is from "
             f"{divisor[0]:g} to {divisor[1]:g} N/m; take cutting_force for such scenes."
         )
-
-
-def data_of(table: TableModel | None) -> dict[str, str]:
-    """Return where the coefficients come from."""
-    if table is None:
-        return {"source": "closed form of arXiv:2412.02021"}
-    told = candidates().fitted.about.get("provenance", {})
-    return {
-        "source": "table of finite elements",
-        **{key: str(told[key]) for key in ("data_date", "date", "design_hash") if key in told},
-    }

@@ -5,38 +5,33 @@ A term of the force is the true one times exp(e) at most, with |e| up to its bou
 
     sum t (exp(e) - 1) / (1 + sum t),
 
-which is monotonic in each t as a quotient of linear functions. Eq. (13) with its own bounds says
-between which numbers each t is in the box, so that the largest error is at one of the corners.
-Where the cells are those of g/g_touch, as for A* and B*, the box of g touches those that it has at
-any of its alphas.
+which is monotonic in each t as a quotient of linear functions. Eq. (13) and the table, each with
+its own bounds, say between which numbers each t is in a part of the box, so that the largest error
+there is at one of the corners. Beside solutions on which the wire rubs the true terms are those of
+the first order times kappa: e has a part of it as well, of |ln kappa| where kappa is left out and
+of its error where it is not. Where the cells are those of g/g_touch, as for A* and B*, the box of g
+touches those that it has at any of its alphas.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from surrogate.choosing.candidates import TERMS, Candidates
-from surrogate.contact.coordinates import log_touch
-from surrogate.contact.domain import ROUNDING, Domain
+from surrogate.choosing.candidates import OUTSIDE, TERMS, Candidates
+from surrogate.contact.coordinates import touch_range
+from surrogate.contact.domain import ROUNDING, Domain, g_range
+from surrogate.contact.table import TableModel
 
-__all__ = ["Ranges", "force_error", "g_range", "lowest_of_highest"]
+__all__ = ["Ranges", "force_error", "lowest_of_highest"]
 
 Ranges: TypeAlias = "Mapping[str, tuple[float, float]]"
-
-
-def g_range(ranges: Ranges) -> tuple[float, float]:
-    """Return the ends of g = Gamma_o/(mu R_w) in a box of scenes; (0, 0) or infinite at zeros."""
-    ends = []
-    for i, j in ((0, 1), (1, 0)):
-        divisor = ranges["shear_modulus"][j] * ranges["wire_radius"][j]
-        gamma = ranges["toughness"][i]
-        ends.append(gamma / divisor if divisor else (math.inf if gamma else 0.0))
-    return ends[0], ends[1]
+_NOTHING = 0.0, 0.0
+_SLICE = 0.2  # of ln g
 
 
 def lowest_of_highest(limits: Domain, alpha: tuple[float, float]) -> float:
@@ -48,19 +43,15 @@ def lowest_of_highest(limits: Domain, alpha: tuple[float, float]) -> float:
     return min(float(limits.highest_g(a)) for a in (*alpha, *inner)) * ROUNDING
 
 
-def _touch_range(coefficients: Sequence[float], alpha: tuple[float, float]) -> tuple[float, float]:
-    """Return the lowest and the highest g_touch of a range of alpha; 1 without coefficients."""
-    if not coefficients:
-        return 1.0, 1.0
-    low, high = (float(np.log(a)) for a in alpha)
-    roots: Any = np.polynomial.Polynomial(coefficients).deriv().roots()
-    level = [row.real for row in roots if abs(row.imag) < 1e-9 and low < row.real < high]
-    logs = [float(log_touch(coefficients, row)) for row in (low, high, *level)]
-    return math.exp(min(logs)), math.exp(max(logs))
+Beside: TypeAlias = "Callable[[tuple[float, float], tuple[float, float]], tuple[float, float]]"
 
 
 def force_error(
-    known: Candidates, ranges: Ranges, models: Mapping[str, str], functions: Mapping[str, str]
+    known: Candidates,
+    ranges: Ranges,
+    models: Mapping[str, str],
+    functions: Mapping[str, str],
+    beside: Beside | None = None,
 ) -> float:
     """Return the largest relative error of the force in a box of scenes [-].
 
@@ -74,6 +65,9 @@ def force_error(
         The model of each term that there is, "arc" and "normal_load".
     functions : mapping of str to str
         The function of the models that each term follows, which depends on the law.
+    beside : callable, optional
+        Of a range of g and one of alpha: by how much the logarithm of a term is off besides, and
+        how far that of the true term may be from that of the function.
 
     Returns
     -------
@@ -82,10 +76,22 @@ def force_error(
     """
     if not models:
         return 0.0
-    return max(
-        _in_cell(known, cell, g, alpha, ranges, models, functions)
-        for cell, g, alpha in _cells(known, g_range(ranges), ranges["stiffening_exponent"])
-    )
+    largest = 0.0
+    for cell, whole, alpha in _cells(known, g_range(ranges), ranges["stiffening_exponent"]):
+        if cell == known.bounds.cells:
+            return math.inf
+        besides = beside(whole, alpha) if beside else _NOTHING
+        for g in _slices(whole):
+            part = g, alpha
+            largest = max(largest, _in_cell(known, cell, part, ranges, models, functions, besides))
+    return largest
+
+
+def _slices(g: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Yield parts of a range of g in which the functions hardly change."""
+    count = max(math.ceil(math.log(g[1] / g[0]) / _SLICE), 1)
+    edges = np.geomspace(*g, count + 1).tolist()
+    yield from pairwise([g[0], *edges[1:-1], g[1]])
 
 
 def _cells(
@@ -97,7 +103,7 @@ def _cells(
         yield bounds.cells, g, alpha
         return
     for column, in_alpha in _parts(bounds.alpha, alpha):
-        low, high = _touch_range(bounds.touch, in_alpha)
+        low, high = touch_range(bounds.touch, in_alpha)
         off = ROUNDING if bounds.touch else 1.0
         ends = g[0] / (high * off), g[1] / low * off
         if not (bounds.g[0] <= ends[0] and ends[1] <= bounds.g[-1]):
@@ -120,21 +126,42 @@ def _parts(
 def _in_cell(
     known: Candidates,
     cell: int,
-    g: tuple[float, float],
-    alpha: tuple[float, float],
+    part: tuple[tuple[float, float], tuple[float, float]],
     ranges: Ranges,
     models: Mapping[str, str],
     functions: Mapping[str, str],
+    besides: tuple[float, float],
 ) -> float:
-    errors = {t: float(known.error(models[t], functions[t])[cell]) for t in models}
+    more, away = math.expm1(besides[0]), math.exp(besides[1])
+    own = {t: float(known.error(models[t], functions[t])[cell]) for t in models}
+    errors = {term: error + more * (1.0 + error) for term, error in own.items()}
     if not all(map(math.isfinite, errors.values())):
         return math.inf
     shares = []
     for term in models:
-        low, high = _estimate(term, g, ranges)
-        least, most = known.least(functions[term])[cell], known.most(functions[term])[cell]
-        shares.append((low * float(least), high * float(most)))
+        low, high = _estimate(term, part[0], ranges)
+        least, most = _between(known, cell, term, functions[term], part)
+        shares.append((low * least / away, high * most * away))
     return max(_error(corner, list(errors.values())) for corner in product(*shares))
+
+
+def _between(
+    known: Candidates,
+    cell: int,
+    term: str,
+    name: str,
+    part: tuple[tuple[float, float], tuple[float, float]],
+) -> tuple[float, float]:
+    """Return between which numbers a true term over Eq. (13) is: that of (13), and the table."""
+    least, most = float(known.least(name)[cell]), float(known.most(name)[cell])
+    (g, alpha), off = part, float(known.error(OUTSIDE, name)[cell])
+    table: Any = known.fitted.models[OUTSIDE]
+    if not (isinstance(table, TableModel) and off < math.inf):
+        return least, most
+    ends = table.table.between(name, g, alpha)
+    by_13 = (2.0, 2.0) if term == TERMS[0] else tuple(2.0 + 0.5 * each for each in g)
+    low, high = ends[0] / by_13[1] / (1.0 + off), ends[1] / by_13[0] * (1.0 + off)
+    return max(least, low), min(most, high)
 
 
 def _estimate(term: str, g: tuple[float, float], ranges: Ranges) -> tuple[float, float]:

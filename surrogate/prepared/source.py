@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.contact.fitted import PROJECTED, SLIP
+from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
-from surrogate.prepared.plan import GAMMA, MU, RADIUS, Plan
+from surrogate.prepared.plan import GAMMA, MU, RADIUS, RUBBING, WITHOUT_SHEAR, Plan
 from surrogate.prepared.statements import (
     COEFFICIENTS,
     arrays_of,
@@ -113,19 +113,27 @@ def _about(force: Any, dialect: Dialect) -> list[str]:
 _LAWS = {
     PROJECTED: "F_ss/T = Gamma_o + 2 R_w (tau_w A + xi mu B), Eq. (S2) of arXiv:2412.02021.",
     SLIP: "F_ss/T = Gamma_o + 2 R_w (tau_w A* + xi mu B*), energy to first order in tau_w and xi.",
+    COUPLED: "F_ss/T = Gamma_o + 2 R_w (tau_w A* + xi mu B*) kappa, stresses acting on the body.",
 }
 """The laws in words."""
 
 
 def _errors(force: Any) -> list[str]:
     """Return the lines that say how far the force may be off, and beside what."""
-    error, beside = force.relative_error, "Relative error beside finite elements without shear"
-    if error == error:
-        return [f"{beside} on the wire: up to {error:.3g}."]
-    lines = [f"{beside} on the wire: unknown."]
-    if force.law == SLIP:
+    lines = [_error(force.relative_error, force.beside)]
+    if force.beside == RUBBING and force.law != COUPLED:
+        lines += [_error(force.fit_error, WITHOUT_SHEAR)]
+    unknown = force.fit_error != force.fit_error
+    if force.law == SLIP and unknown:
         lines += ["Where the crack's tip touches the wire the force depends on how sharp it is."]
+    if force.law == PROJECTED and force.relative_error != force.relative_error:
+        lines += ["tau_w and xi are effective strengths then: those that this law was fitted with."]
     return lines
+
+
+def _error(error: float, beside: str) -> str:
+    known = f"up to {error:.3g}" if error == error else "unknown"
+    return f"Relative error beside finite elements {beside}: {known}."
 
 
 def _checks(plan: Plan, dialect: Dialect) -> list[str]:
@@ -265,7 +273,7 @@ if (typeof module !== "undefined") {
 
 _PYTHON = '''
 <<remarks>>
-from math import floor, inf, log, nan
+from math import exp, floor, inf, log, log1p, nan
 
 <<arrays>>
 <<table>>

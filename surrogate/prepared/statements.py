@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -49,6 +50,7 @@ def force_statements(plan: Plan, dialect: Dialect) -> tuple[list[str], str]:
         g = f"{GAMMA}/({MU}*{RADIUS})"
         functions = {t: COEFFICIENTS[t].lower() for t in plan.of_table}
         lines += [_let(dialect, PARTS[t], _call(dialect, f, g)) for t, f in functions.items()]
+    lines += _kappa(plan, dialect) if plan.load else []
     total = " + ".join((GAMMA, *_terms(plan)))
     text = "\n".join((*lines, total))
     constants = {n: v for n, v in plan.fixed.items() if re.search(rf"\b{n}\b", text)}
@@ -85,17 +87,58 @@ def _call(dialect: Dialect, name: str, g: str) -> str:
 def _terms(plan: Plan) -> Iterator[str]:
     """Yield the terms beside the cleavage."""
     arc, load_2, load_slope = plan.form.arc_2, plan.form.load_2, plan.form.load_2_slope
+    times = "*kappa" if plan.load else ""
     if ARC in plan.of_table:
-        yield f"2.0*({WEAR}*{RADIUS})*{PARTS[ARC]}"
+        yield f"2.0*({WEAR}*{RADIUS})*{PARTS[ARC]}{times}"
     elif arc and plan.ranges[WEAR][1]:
         yield f"{arc!r}*({WEAR}*{RADIUS})"
     if LOAD in plan.of_table:
-        yield f"2.0*({RADIUS}*({XI}*{MU}))*{PARTS[LOAD]}"
+        yield f"2.0*({RADIUS}*({XI}*{MU}))*{PARTS[LOAD]}{times}"
     elif plan.ranges[XI][1]:
         if load_slope:
             yield f"{load_slope!r}*({XI}*{GAMMA})"
         if load_2:
             yield f"{load_2!r}*({RADIUS}*({XI}*{MU}))"
+
+
+_VARIABLES = {"x": "x_load", "y": "log_alpha", "xi": XI, "w": "w_load"}
+"""Names of the variables of ln kappa."""
+
+
+def _kappa(plan: Plan, dialect: Dialect) -> Iterator[str]:
+    """Yield the statements that find kappa."""
+    load = plan.load
+    assert load is not None
+    if "y" in load.varies:
+        yield _let(dialect, _VARIABLES["y"], f"{dialect.log}({ALPHA})")
+        touch = _polynomial(list(load.kappa.touch), [_VARIABLES["y"]])
+    else:
+        touch = repr(load.touch)
+    if "x" in load.varies:
+        log_g = f"{dialect.log}({GAMMA}/({MU}*{RADIUS}))"
+        yield _let(dialect, _VARIABLES["x"], f"{log_g} - ({touch})")
+    if "w" in load.varies:
+        yield _let(dialect, _VARIABLES["w"], f"{dialect.log1p}({WEAR}/{MU})")
+    first, *others = (_VARIABLES[variable] for variable in load.varies)
+    names = []
+    for power, row in enumerate(load.polynomial.nested):
+        names.append(f"k{power}")
+        yield _let(dialect, names[-1], _polynomial(row, others))
+    yield _let(dialect, "kappa", f"{dialect.exp}({_sum_of_powers(names, first)})")
+
+
+def _polynomial(rows: Any, variables: Sequence[str]) -> str:
+    """Return a polynomial of variables, by Horner's rule."""
+    if isinstance(rows, float):
+        return repr(rows)
+    return _sum_of_powers([_polynomial(row, variables[1:]) for row in rows], variables[0])
+
+
+def _sum_of_powers(coefficients: Sequence[str], variable: str) -> str:
+    text = coefficients[-1]
+    for coefficient in coefficients[-2::-1]:
+        text = f"({coefficient} + {variable}*{text})"
+    return text
 
 
 def _let(dialect: Dialect, name: str, expression: str) -> str:

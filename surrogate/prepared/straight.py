@@ -2,7 +2,8 @@
 
     F_ss/T = constant + v (slope + T(x)) + P(x),  x = start + sign ln v = ln(g/g_touch),
 
-with cubic pieces T and P of the table, as far as the scene needs them.
+with cubic pieces T and P of the table, as far as the scene needs them. Under the law "coupled" one
+of them is there, times kappa, whose logarithm is a polynomial of x.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.contact.table import cubics
+from surrogate.coupling.polynomial import horner
 from surrogate.prepared.line import Line
 
 __all__ = ["Straight"]
@@ -40,6 +42,8 @@ class Straight:
         T and P, on the same pieces.
     side : int
         -1 or 1 where the whole range is short of or past the touch, else 0.
+    powers : tuple of float
+        ln kappa in rising powers of x; empty where kappa is 1.
 
     Examples
     --------
@@ -55,12 +59,15 @@ class Straight:
     times: Line | None
     plain: Line | None
     side: int = 0
+    powers: tuple[float, ...] = ()
 
     @property
     def number(self) -> Callable[[float], float]:
         """The force of a float."""
         if self.times is None and self.plain is None:
             return lambda value: self.constant + value * self.slope
+        if self.powers:
+            return self._amplified()
         if self.plain is None:
             return self._of_times()
         return self._of_times(self.plain) if self.times is not None else self._of_plain()
@@ -81,6 +88,27 @@ class Straight:
                 return total
             a, b, c, d = others[piece]
             return total + (a + t * (b + t * (c + t * d)))
+
+        return force
+
+    def _amplified(self) -> Callable[[float], float]:
+        line, start, sign, constant, slope = self._numbers
+        rows, before, after, short, ln = line.rows, line.before, line.after, line.short, np.log
+        last, others, exp, times = self.powers[-1], self.powers[-2::-1], np.exp, self.times
+
+        def force(value: float) -> float:
+            x = start + sign * float(ln(value))
+            log_kappa = last
+            for coefficient in others:
+                log_kappa = log_kappa * x + coefficient
+            t = (before if x < 0.0 else after) * x + short
+            piece = int(t)
+            t -= piece
+            a, b, c, d = rows[piece]
+            drag = (a + t * (b + t * (c + t * d))) * float(exp(log_kappa))
+            if times is None:
+                return value * slope + constant + drag
+            return value * (slope + drag) + constant
 
         return force
 
@@ -126,9 +154,11 @@ class Straight:
         if self.times is None and self.plain is None:
             np.multiply(v, self.slope, out=result)
         else:
-            piece, t = self._place(v, room)
+            of = self._place(v, room)
             if self.times is not None:
-                _values(self.times, piece, t, result, room)
+                of(self.times, result)
+                if self.powers:
+                    result *= room.kappa[: v.size]
                 if self.slope:
                     result += self.slope
                 result *= v
@@ -138,19 +168,27 @@ class Straight:
             np.add(result, self.constant, out=target, casting="same_kind")
             return
         result += self.constant
-        _values(self.plain, piece, t, extra, room)
+        of(self.plain, extra)
+        if self.powers:
+            extra *= room.kappa[: v.size]
         np.add(result, extra, out=target, casting="same_kind")
 
-    def _place(self, v: Array, room: _Room) -> tuple[Any, Array]:
-        """Return pieces and places in them."""
+    def _place(self, v: Array, room: _Room) -> Callable[[Line, Array], None]:
+        """Return what puts the values of a line at these places into an array."""
         line, x = self._numbers[0], room.x[: v.size]
         np.log(v, out=x)
+        start, sign = self.start, self.sign
+        if self.powers or not room.compiled:
+            (np.add if sign > 0.0 else np.subtract)(start, x, out=x)
+            start, sign = 0.0, 1.0
+        if self.powers:
+            kappa = horner(self.powers, x, room.kappa[: v.size])
+            np.exp(kappa, out=kappa)
         if room.compiled:
-            piece = room.piece[: v.size]
-            room.compiled[0](x, self.start, self.sign, line.before, line.after, line.short, piece)
-            return piece, x
-        (np.add if self.sign > 0.0 else np.subtract)(self.start, x, out=x)
-        return line.place(x, self.side)
+            steps = line.before, line.after, line.short
+            return lambda one, out: room.compiled(x, start, sign, *steps, one.pieces, out)
+        piece, t = line.place(x, self.side)
+        return lambda one, out: cubics(one.pieces, piece, t, out, room.taken[: t.size])
 
 
 class _Room:
@@ -158,18 +196,12 @@ class _Room:
 
     def __init__(self, size: int, force: Straight) -> None:
         self.result, self.x, self.extra = np.empty(size), np.empty(size), np.empty(size)
+        self.kappa = np.empty(size if force.powers else 0)
         lines = force.times is not None or force.plain is not None
         self.compiled: Any = None
         if lines and "numba" in sys.modules:
-            from surrogate.contact.compiled import cubic, line_places
+            from surrogate.contact.compiled import along_line
 
-            self.compiled, self.piece = (line_places, cubic), np.empty(size, np.uint32)
+            self.compiled = along_line
         else:
             self.taken = np.empty((size, 4) if lines else (0, 4))
-
-
-def _values(line: Line, piece: Any, t: Array, result: Array, room: _Room) -> None:
-    if room.compiled:
-        room.compiled[1](line.pieces, piece, t, result)
-    else:
-        cubics(line.pieces, piece, t, result, room.taken[: t.size])

@@ -5,43 +5,54 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from surrogate.choosing.by_name import force_model
+from surrogate.choosing.by_name import AUTO, force_model
 from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
 from surrogate.contact.closed_forms import FORCE_MODELS
+from surrogate.errors import InputError
+from surrogate.prepared.deciding import data_of
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
-from surrogate.prepared.preparing import data_of
+from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, RUBBING, WITHOUT_SHEAR, Plan
 from surrogate.prepared.proof import force_error
 from surrogate.scene import NAMES
 
 __all__ = ["whole_table"]
 
 
-def whole_table(language: str, law: str = PROJECTED) -> str:
+def whole_table(language: str, law: str = AUTO) -> str:
     """Return the table itself as a program: a force of all six quantities of a scene.
 
     Parameters
     ----------
     language : str
         "c", "javascript", "matlab" or "python".
-    law : str, default "projected"
-        The law of dissipation, "projected" or "slip".
+    law : str, default "auto"
+        The law of dissipation, "projected" or "slip"; "auto" for "projected", as no other one is
+        known all over the table.
 
     Raises
     ------
     InputError
-        If there is no such language or law, or no table.
+        If there is no such language or law, the law is "coupled", or there is no table.
 
     Examples
     --------
     >>> whole_table("python").count("def arc(g, alpha)")
     1
     """
+    any_law = isinstance(law, str) and law == AUTO
+    law = PROJECTED if any_law else law
+    if isinstance(law, str) and law == COUPLED:
+        raise InputError(
+            "the whole table must be of the law 'projected' or 'slip', as 'coupled' is known for "
+            "some loads only; choose one of them, or state ranges."
+        )
     table: Any = of_law(force_model(OUTSIDE), law)
     form: Any = FORCE_MODELS[FREE]
     plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law)
-    return ForceFunction(plan, _error(law), data_of(table)).source(language)
+    error = _error(law)
+    told = (math.nan, RUBBING) if any_law else (error, WITHOUT_SHEAR)
+    return ForceFunction(plan, told[0], data_of(table), error, told[1]).source(language)
 
 
 def _error(law: str) -> float:

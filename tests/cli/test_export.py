@@ -23,7 +23,10 @@ def test_it_writes_a_file_and_says_what_it_is(tmp_path, capsys):
     out = tmp_path / "force.js"
     assert main(["export", "--format", "javascript", *GEL, *RADIUS, "--out", str(out)]) == 0
     text = capsys.readouterr().out
-    assert "F_ss/T over wire_radius from 0.0001 to 0.001; wear by table; error up to" in text
+    assert (
+        "F_ss/T over wire_radius from 0.0001 to 0.001; wear by table, projected law; error of the "
+        "law unknown, of the models up to"
+    ) in text
     assert out.read_text().startswith("// Steady cutting force")
     assert main(["export", "--format", "javascript", "--table", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["source"] == whole_table("javascript")
@@ -31,6 +34,13 @@ def test_it_writes_a_file_and_says_what_it_is(tmp_path, capsys):
 
 def test_the_law_is_an_option(capsys):
     scene, ranges = Scene(685.0, 1.6, 1.0, 0.0, 7750.0), {"wire_radius": (1e-4, 1e-3)}
+    for law in ("projected", "auto"):
+        assert main(["export", "--format", "c", "--law", law, *GEL, *RADIUS]) == 0
+        assert capsys.readouterr().out == prepare(scene, ranges=ranges, law=law).source("c")
+    assert main(["export", "--format", "c", "--law", "coupled", *GEL, *RADIUS]) == 2
+    assert "where no coupled solution is near" in capsys.readouterr().err
+    assert main(["export", "--format", "c", "--law", "coupled", "--table"]) == 2
+    assert "or state ranges" in capsys.readouterr().err
     command = ["export", "--format", "c", "--law", "slip"]
     assert main([*command, *GEL, *RADIUS]) == 0
     assert capsys.readouterr().out == prepare(scene, ranges=ranges, law="slip").source("c")

@@ -130,3 +130,13 @@ def test_a_file_with_other_shapes_or_a_kappa_without_load_is_refused(coupled, tm
     (tmp_path / f"{AMPLIFICATION_FILE}.sha256").write_bytes(checksum_line(file.name, content))
     with pytest.raises(InputError, match="must be complete"):
         amplification_of(*read_fitted(str(file)))
+
+
+def test_a_polynomial_of_some_of_its_variables_and_about_a_center():
+    powers = np.array([(a, b, c) for a in range(3) for b in range(4) for c in (0, 1)])
+    whole = Polynomial(powers, RNG.normal(size=len(powers)))
+    x, y, z = RNG.normal(size=(3, 20))
+    assert whole.collapsed((None, 0.7, None))(x, z) == pytest.approx(whole(x, 0.7, z), rel=1e-12)
+    assert whole.collapsed((0.3, None, -2.0))(y) == pytest.approx(whole(0.3, y, -2.0), rel=1e-12)
+    moved = whole.about([0.5, -1.0, 2.0])
+    assert moved(x - 0.5, y + 1.0, z - 2.0) == pytest.approx(whole(x, y, z), rel=1e-10)

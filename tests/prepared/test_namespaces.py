@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from surrogate import DomainError, InputError, Scene, force_gradient, prepare
-from surrogate.prepared.namespaces import SINGLE
+from surrogate.prepared.namespaces import SINGLE, SINGLE_COUPLED
 from surrogate.scene import NAMES
 
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
@@ -92,6 +92,46 @@ def test_kinds_of_arrays(strict):
         force("one", radii)
     with pytest.raises(InputError, match="out must be left out"):
         force(radii, radii, out=np.empty(2))
+
+
+TISSUE = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
+LOADS = {
+    "shear_modulus": (8e3, 20e3),
+    "toughness": (3.0, 9.0),
+    "wire_radius": (4e-4, 2e-3),
+    "friction_coefficient": (0.0, 0.02),
+    "wear_strength": (1.0, 2e3),
+    "stiffening_exponent": (5.5, 7.0),
+}
+
+
+def amplified(varying):
+    """Return a force under the law "coupled", and values of what varies."""
+    box = {name: LOADS[name] for name in varying}
+    random, ends = np.random.default_rng(1), np.array(list(box.values()))
+    shares = random.uniform(0.001, 0.999, (len(varying), 60))
+    values = list(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * shares)
+    return prepare(TISSUE, varying, box, law="coupled"), values
+
+
+@pytest.mark.parametrize("varying", VARYING, ids=str)
+def test_coupled_forces_elsewhere(strict, jax, varying):
+    force, values = amplified(varying)
+    result = force(*map(strict.asarray, values))
+    np.testing.assert_allclose(np.asarray(result), force(*values), rtol=1e-13)
+    single = force(*(strict.asarray(value, dtype=strict.float32) for value in values))
+    exact = force(*(value.astype(np.float32).astype(float) for value in values))
+    np.testing.assert_allclose(np.asarray(single), exact, rtol=SINGLE_COUPLED)
+    named = dict(zip(NAMES, TISSUE.values(), strict=True)) | dict(zip(varying, values, strict=True))
+    slopes = force_gradient(Scene(**named), "table", law="coupled")
+    arrays = tuple(map(jax.numpy.asarray, values))
+    inside = jax.jit(
+        jax.vmap(jax.grad(lambda *at: force(*at, outside="nan"), tuple(range(len(varying)))))
+    )
+    for name, slope in zip(varying, inside(*arrays), strict=True):
+        wanted = getattr(slopes, name)
+        scale = np.max(np.abs(wanted))
+        np.testing.assert_allclose(slope, wanted, rtol=1e-9, atol=1e-12 * scale)
 
 
 LAWS = [*((varying, "projected") for varying in VARYING), (("wire_radius",), "slip")]

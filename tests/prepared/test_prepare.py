@@ -90,7 +90,7 @@ def test_auto_keeps_its_promise_beside_the_gp_whose_bounds_it_uses(rtol):
     """The error beside the process is at most the table's bound and the process's own."""
     for xi, wear in ((0.0, 7750.0), (0.2, 0.0), (0.1, 50.0), (1e-6, 7750.0)):
         gel = Scene(685.0, 1.6, 0.25e-3, xi, wear, 3.0)
-        force = prepare(gel, ranges={"wire_radius": (5e-5, 2e-3)}, rtol=rtol)
+        force = prepare(gel, ranges={"wire_radius": (5e-5, 2e-3)}, rtol=rtol, law="projected")
         assert force.relative_error <= rtol
         radius = np.geomspace(5e-5, 2e-3, 400)
         there = cutting_force(Scene(685.0, 1.6, radius, xi, wear, 3.0), "gp", law="projected").total
@@ -164,7 +164,7 @@ def test_the_bound_is_not_below_that_of_any_point():
         low = np.exp(random.uniform(np.log(5e-5), np.log(1e-3)))
         ends = low, low * random.uniform(1.01, 3.0)
         gel = Scene(685.0, 1.6, 1e-4, random.uniform(0.0, 0.3), 7750.0, random.uniform(2.0, 8.0))
-        force = prepare(gel, ranges={"wire_radius": ends}, model="table")
+        force = prepare(gel, ranges={"wire_radius": ends}, model="table", law="projected")
         by_point = cutting_force(
             Scene(*gel.values()[:2], np.geomspace(*ends, 50), *gel.values()[3:]),
             rtol=0.05,
@@ -354,11 +354,15 @@ def test_arguments_are_given_once():
         ({"fixed": Scene([685.0], 1.6, 1e-4)}, InputError, "must be one number"),
         ({"model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"law": "greed"}, InputError, "law must be one of projected, slip"),
-        ({"law": "coupled"}, InputError, "call cutting_force with law='coupled'"),
+        ({"law": "coupled"}, DomainError, "reach before the tip touches the wire, all over"),
+        ({"law": "coupled", "model": "eq13"}, InputError, "must have a model fitted"),
+        ({"law": "coupled", "model": "gp"}, InputError, "neither the table nor a closed form"),
+        ({"law": "auto", "rtol": 0.5}, AccuracyError, "is known to nobody, as at xi = 0.1"),
+        ({"law": "auto", "model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"law": "slip", "model": "eq13"}, InputError, "must have a model fitted"),
         ({"law": "slip", "model": "gp"}, InputError, "neither the table nor a closed form"),
         ({"model": "eq9"}, InputError, "neither the table nor a closed form"),
-        ({"rtol": 1e-6}, AccuracyError, "all over the ranges"),
+        ({"rtol": 1e-6, "law": "projected"}, AccuracyError, "all over the ranges"),
         ({"rtol": 0.02, "model": "low-toughness"}, AccuracyError, "known to nobody"),
         ({"rtol": 0.02, "model": "eq13"}, AccuracyError, "give rtol="),
     ],

@@ -23,6 +23,15 @@ BOX = {
 }
 USUAL = {"wire_radius": (1e-4, 1e-3)}
 STIFF = {"toughness": (1.0, 51.0), "stiffening_exponent": (4.0, 9.0)}  # g up to 298
+TISSUE = Scene(10e3, 5.0, 0.5e-3, 0.02, 2e3, 6.0)
+LOADS = {
+    "wear_strength": (0.0, 2e3),
+    "shear_modulus": (8e3, 20e3),
+    "toughness": (3.0, 9.0),
+    "wire_radius": (4e-4, 2e-3),
+    "friction_coefficient": (0.0, 0.02),
+    "stiffening_exponent": (5.5, 7.0),
+}
 FORCES = {
     "radius": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, model="table"),
     "wear alone": prepare(Scene(685.0, 1.6, 1e-4, 0.0, 7750.0), ranges=USUAL),
@@ -32,6 +41,9 @@ FORCES = {
     "several": prepare(GEL, tuple(BOX), BOX, "table"),
     "slip": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, law="slip"),
     "slip, alpha": prepare(GEL, tuple(BOX), BOX, law="slip"),
+    "coupled, radius": prepare(TISSUE, ranges={"wire_radius": (4e-4, 2e-3)}, law="coupled"),
+    "coupled, wear": prepare(TISSUE, ("wear_strength",), {"wear_strength": (0.0, 2e3)}),
+    "coupled, all": prepare(TISSUE, tuple(LOADS), LOADS, law="coupled"),
     "stiff": prepare(GEL, ("toughness", "stiffening_exponent"), STIFF, "table"),
     "alpha": prepare(GEL, ("stiffening_exponent",), {"stiffening_exponent": (2.0, 9.0)}, "table"),
 }
@@ -170,7 +182,7 @@ def test_the_whole_table(language, law, tmp_path):
 
 
 def test_the_header_tells_what_it_is():
-    force = FORCES["radius"]
+    force = prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, model="table", law="projected")
     for language in LANGUAGES:
         head = force.source(language)[:2000]
         for words in (
@@ -186,5 +198,14 @@ def test_the_header_tells_what_it_is():
     head = FORCES["slip"].source("c")[:2000]
     for words in ("tau_w A* + xi mu B*", "unknown", "tip touches the wire", "wear by table"):
         assert words in head
+    head = FORCES["radius"].source("javascript")[:2000]
+    for words in ("on which the wire rubs: unknown.", "Eq. (S2)", "effective strengths"):
+        assert words in head
+    assert f"without shear on the wire: up to {force.fit_error:.3g}." in head
+    force = FORCES["coupled, wear"]
+    assert force.law == "coupled"
+    head = force.source("matlab")[:2000]
+    assert f"on which the wire rubs: up to {force.relative_error:.3g}." in head
+    assert "B*) kappa" in head
     with pytest.raises(InputError, match="language must be one of"):
         force.source("fortran")
