@@ -18,6 +18,7 @@ from surrogate.errors import (
     DomainError,
     ImplausibleInputWarning,
     InputError,
+    OtherLawWarning,
     UnknownModelError,
     WirecutError,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "Material",
     "Measurements",
     "ModelInfo",
+    "OtherLawWarning",
     "Regime",
     "RegimeMap",
     "Scene",

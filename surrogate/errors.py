@@ -8,6 +8,7 @@ __all__ = [
     "ImplausibleInputWarning",
     "InputError",
     "MissingExtraError",
+    "OtherLawWarning",
     "UnknownModelError",
     "WirecutError",
 ]
@@ -39,3 +40,7 @@ class MissingExtraError(WirecutError, ImportError):
 
 class ImplausibleInputWarning(UserWarning):
     """A number that is hardly that of cutting a soft solid with a wire: check its unit."""
+
+
+class OtherLawWarning(UserWarning):
+    """A force under another law than that by which toughness and wear strength were identified."""
