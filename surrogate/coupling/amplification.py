@@ -128,6 +128,16 @@ class Amplification:
             where(free, by_w / (1.0 + wear), 0.0),
         )
 
+    def load_slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any]:
+        """Return ln kappa and its derivatives by xi and tau_w/mu, 0 beyond what is known."""
+        variables, free = self._at(g, alpha, xi, wear)
+        _, _, by_xi, by_w = self.polynomial.derivatives
+        return (
+            self.polynomial(*variables),
+            where(free, by_xi(*variables), 0.0),
+            where(free, by_w(*variables) / (1.0 + wear), 0.0),
+        )
+
     def share(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return the load over the largest one that is known there; infinite outside g and alpha.
 
@@ -174,7 +184,7 @@ class Amplification:
         size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(*self._clamped(x, y), direction)
         with np.errstate(all="ignore"):
-            share = np.divide(size, reach)
+            share = where(size == 0.0, 0.0, np.divide(size, reach))
         return Place(inside & (size <= reach), x, y, xi, _log1p(wear), share)
 
     def log_at(self, place: Place) -> Any:
@@ -199,6 +209,33 @@ class Amplification:
         low, high = self._log_ends
         log_g = x + log_touch(self.touch, y)
         return inside & (log_g >= low) & (log_g <= high)
+
+    def drift(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return how far ln kappa of the nearest load and g that are known may be off beyond them.
+
+        Over the load that is not reached it may go on at the largest rate of the cell, and so for
+        each factor e in g; 0 where kappa is known, infinite at alphas where it is not.
+        """
+        at = self._place(g, alpha)
+        x, y = self._clamped(*at)
+        size, direction = load_of(xi, wear, self.largest)
+        whole = self._of_cell(self.growth, g, alpha) * (xi + 0.1 * _log1p(wear))
+        with np.errstate(all="ignore"):
+            left = np.maximum(size - self.reach_at(x, y, direction), 0.0) / size
+            log_g, (low, high) = at[0] + log_touch(self.touch, at[1]), self._log_ends
+            apart = np.maximum(np.abs(at[0] - x), np.maximum(low - log_g, log_g - high))
+            drift = np.where(at[1] == y, whole * (left + apart), np.inf)
+        return np.where(np.equal(size, 0.0), 0.0, drift)
+
+    @property
+    def exponents(self) -> tuple[float, float]:
+        """The smallest and the largest alpha at which kappa is known."""
+        low, high = self._ends[1]
+        return float(np.exp(low)), float(np.exp(high))
+
+    def near_error(self, g: Any, alpha: Any) -> Any:
+        """Return the bound of the error of ln kappa in the nearest cell, whatever the load."""
+        return self._of_cell(self.errors, g, alpha)
 
     def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         y = log(alpha)
