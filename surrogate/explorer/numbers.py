@@ -14,6 +14,7 @@ from surrogate.contact.fitted import TERMS_OF_LAW
 from surrogate.contact.shipped import folder_in_use
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification
 from surrogate.cutting.regimes import DOMINANT_SHARE, PARTS
+from surrogate.explorer.reading import reading
 from surrogate.reading import plausibility
 from surrogate.reading.measurements import Measurements
 from surrogate.reading.plausibility import Plausible
@@ -82,6 +83,7 @@ def page_numbers(
         "threshold": DOMINANT_SHARE,
         "transition": PARTS[0],
         "parts": PARTS[1:],
+        "reading": reading(),
         "quantities": [_quantity(*one, alpha=limits.alpha) for one in _SHOWN],
         "start": {
             **{KEYS[name]: float(value) for name, value in zip(NAMES, scene.values(), strict=True)},

@@ -26,7 +26,10 @@ from surrogate.version import __version__
 
 __all__ = ["explorer_page", "write_explorer"]
 
-SCRIPTS = ("physics", "words", "coupled", "plot", "map", "forces", "controls", "output", "main")
+SCRIPTS = (
+    *("physics", "words", "coupled", "plot", "map", "forces", "table", "controls", "cuts"),
+    *("output", "main"),
+)
 """The parts of the program, each using what stands before it; that of a law only if it is known."""
 
 

@@ -138,8 +138,7 @@ function show() {
   document.querySelectorAll("[name=law]").forEach((one) => { one.checked = one.value === state.law; });
   byId("diameters").checked = state.diameters;
   byId("law-says").replaceChildren(...htmlOf(`${capital(lawOf(state.law).says)}.`));
-  byId("cuts-unit").textContent = state.diameters ? "diameter in mm" : "radius in mm";
-  if (document.activeElement !== byId("cuts")) byId("cuts").value = cutsText(state.cuts, state.diameters);
+  showCuts(state);
   announce();
   if (parent !== window) parent.postMessage({wirecutHeight: document.body.scrollHeight + 32}, "*");
 }
@@ -156,12 +155,7 @@ function begin() {
   byId("quantities").append(...fields.map((one) => one.row));
   byId("law-choice").append(...LAWS.map(lawChoice));
   byId("diameters").addEventListener("change", (event) => change({diameters: event.target.checked}));
-  byId("cuts").addEventListener("input", (event) => {
-    const {cuts, wrong} = cutsOf(event.target.value, state.diameters);
-    byId("cuts-wrong").textContent = wrong.length
-      ? `Not understood, and left out: ${wrong.slice(0, 3).join(" | ")}. Write a wire in mm and a force in N/m.` : "";
-    change({cuts});
-  });
+  listenForCuts(change);
   Object.values(plots).forEach((plot) => { plot.held = holdWords; });
   byId("reset").addEventListener("click", () => change({...DATA.start}));
   byId("save-picture").addEventListener("click", () =>
