@@ -1,4 +1,4 @@
-"""Tables that the page reads: the numbers of read_measurements, or words, and never other numbers."""
+"""Tables that the page reads: the numbers of read_measurements or words, never other numbers."""
 
 import itertools
 
@@ -16,7 +16,7 @@ READ = {
     "force and thickness": "d (mm)\tF [mN]\tthickness (cm)\n0.2\t94\t2\n0.8\t278\t2\n",
     "repeats in columns": "D_mm,trial1_N_per_m,trial2_N_per_m\n0.2,4.7,4.9\n0.8,13.9,\n",
     "repeats in rows": "gel,d_mm,F/T [N/m]\nA,0.2,4.7\nA,0.2,4.8\nA,0.8,13.9\n",
-    "scatter of n": "d_um,force_per_thickness_mN_per_mm,sd_N_per_m,n\n200,4.7,0.3,4\n800,13.9,0.6,9\n",
+    "scatter of n": "d_um,f/t (mN/mm),sd_N_per_m,n\n200,4.7,0.3,4\n800,13.9,0.6,9\n",
     "an empty cell and a sum": f"{POINT}0.6,\nMean,9.3\n",
     "quotes": '"wire diameter, mm","force per thickness, N/m"\n"0.2","4.7"\n"0.8","13.9"\n',
     "thousands": "wire_radius_um;force_per_thickness_N_per_m\n100;1.234,5\n400;2.345,75\n",
