@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
 from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.contact.bounds import Bounds
@@ -81,6 +82,7 @@ def page_numbers(
             for name in TERMS_OF_LAW[law]
         },
         "threshold": DOMINANT_SHARE,
+        "rtol": DEFAULT_RTOL,
         "transition": PARTS[0],
         "parts": PARTS[1:],
         "reading": reading(),
@@ -122,6 +124,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "largest": kappa.largest,
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
+            "growth": kappa.growth.tolist(),
             "lowest": kappa.lowest,
         }
     }

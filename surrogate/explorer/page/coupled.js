@@ -3,7 +3,7 @@
 // ln kappa, a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu), where it is
 // known, and how far it may be off.
 const KAPPA = (() => {
-  const {touch, terms, axes, reach, largest, edges, errors, lowest} = DATA.coupled;
+  const {touch, terms, axes, reach, largest, edges, errors, growth, lowest} = DATA.coupled;
 
   // The coefficients by the power of the first variable, and so on; a number where none is left.
   function nested(rows) {
@@ -64,6 +64,11 @@ const KAPPA = (() => {
     return {inside, free: inside && known, unloaded: size === 0, variables: [...near, xi, Math.log1p(wear)]};
   }
 
+  function ofCell(table, g, s) {
+    const [row, column] = placeOf(g, s.alpha).map((one, n) => intervalOf(edges[n], one));
+    return table[row][column];
+  }
+
   return {
     factor: (g, s) => Math.exp(horner(value, at(g, s).variables)),
     bend: (g, s) => {
@@ -74,10 +79,10 @@ const KAPPA = (() => {
       const {free, unloaded} = at(g, s);
       return free || unloaded;
     },
-    ownError: (g, s) => {
-      const [row, column] = placeOf(g, s.alpha).map((one, n) => intervalOf(edges[n], one));
-      return Math.expm1(errors[row][column]);
-    },
+    ownError: (g, s) => Math.expm1(ofCell(errors, g, s)),
+    // A bound of |ln kappa| where it is known: how far the first order may be off in its own force.
+    most: (g, s) => ofCell(growth, g, s)*(s.xi + 0.1*Math.log1p(s.tau_w/s.mu)),
+    reaches: (g, s) => at(g, s).free,
     inside: (g, s) => at(g, s).inside,
     ends: axes.map((axis) => [axis[0], axis[axis.length - 1]]),
   };

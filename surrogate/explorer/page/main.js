@@ -71,7 +71,7 @@ function showLaws(refused) {
     row.className = law.name === state.law ? "shown" : "";
     const head = document.createElement("th");
     head.scope = "row";
-    head.textContent = capital(law.title);
+    head.textContent = capital(law.title) + (force?.law ? `: ${force.law}` : "");
     head.title = law.says;
     row.append(head, ...cells(law, force).map((content) => {
       const cell = document.createElement("td");
@@ -81,7 +81,7 @@ function showLaws(refused) {
     return row;
   });
   byId("laws").replaceChildren(...rows);
-  byId("laws-unknown").replaceChildren(...htmlOf(refused ? "" : LAWS.map(saysUnknown).filter(Boolean).join(" ")));
+  byId("laws-unknown").replaceChildren(...htmlOf(refused ? "" : LAWS.filter((law) => !law.forceOf).map(saysUnknown).filter(Boolean).join(" ")));
 }
 
 function showAnswer(refused) {
@@ -90,8 +90,8 @@ function showAnswer(refused) {
   answer.classList.toggle("refused", Boolean(refused));
   byId("number").replaceChildren(force ? datum("total", force.total, digits(force.total)) : "no force");
   byId("number-unit").textContent = force ? "N/m" : "";
-  byId("may-be-off").textContent = !force ? "" : Number.isFinite(force.error)
-    ? `error up to ${percentUp(force.error)}` : "error unknown";
+  const error = force && (Number.isFinite(force.error) ? `error up to ${percentUp(force.error)}` : "error unknown");
+  byId("may-be-off").textContent = !force ? "" : force.law ? `${error}, by the law “${force.law}”` : error;
   byId("bar").textContent = force ? `${byId("number").textContent} N/m, ${byId("may-be-off").textContent}` : "no force";
   const sentences = sentencesOf(state);
   byId("says").replaceChildren(...sentences.map((text) => {
