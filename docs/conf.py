@@ -31,6 +31,7 @@ templates_path = []
 default_role = "py:obj"
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+highlight_language = "text"  # commands without a language are no Python
 nb_execution_mode = "off"  # what the notebook shows is held by the tests
 myst_heading_anchors = 3
 
@@ -47,6 +48,8 @@ katex_options = "output: 'mathml'"
 katex_css_path = "katex-math.css"
 
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_extra_path = ["_gallery/explorer-app.html"]  # made by scripts/gallery
 html_title = f"wirecut {release}"
 html_copy_source = False

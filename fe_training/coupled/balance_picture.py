@@ -10,7 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.campaign.dataset import Campaign
-from surrogate.basics.figures import BLUE, COLOURS, FILLS, GREY, RED, SMALL, label_axes, panels
+from surrogate.basics.figures import (
+    BLUE,
+    COLOURS,
+    FILLS,
+    GREY,
+    RED,
+    SMALL,
+    label_at_right,
+    label_axes,
+    panels,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +33,10 @@ SIZE = (7.0, 2.9)
 
 #: The sketch: ends of the contact [rad], and the place of the tip [R_w].
 _ENDS: tuple[float, float] = math.radians(40.0), math.radians(140.0)
-_TIP = 1.6
+_TIP = 1.45
+
+#: Ends of the sketch [R_w].
+_LEFT, _RIGHT = -2.5, 3.0
 
 #: Exponent and toughnesses of the slips that are shown.
 _ALPHA, _TOUGHNESSES = 5.0, (0.01, 0.1, 1.0)
@@ -39,7 +52,7 @@ def balance_figure(campaign: Campaign, figure: Figure) -> None:
     figure : matplotlib.figure.Figure
         Where to draw.
     """
-    left, right = panels(figure, 2, width_ratios=[1.25, 1.0])[0]
+    left, right = panels(figure, 2, width_ratios=[1.4, 1.0])[0]
     _sketch(left)
     _slips(right, campaign)
 
@@ -66,9 +79,9 @@ def _sketch(ax: Axes) -> None:
     """Draw the upper half: the wire, the solid, the tractions on it, pieces of its face."""
     from matplotlib.patches import Circle, Polygon
 
-    x = np.linspace(-2.6, _TIP, 500)
+    x = np.linspace(_LEFT, _TIP, 500)
     face = np.column_stack([x, _face(x)])
-    corners = [[2.7, 0.0], [2.7, 1.9], [-2.6, 1.9]]
+    corners = [[_RIGHT, 0.0], [_RIGHT, 1.9], [_LEFT, 1.9]]
     ax.add_patch(Polygon(np.vstack([face, corners]), fc=FILLS["cleavage"], ec="none"))
     ax.add_patch(Circle((0.0, 0.0), 1.0, fc="#d9c7a0", ec="#8a6d3b", lw=1.0, zorder=2))
     ax.plot(*face.T, color=GREY, lw=0.9, zorder=3)
@@ -83,11 +96,11 @@ def _sketch(ax: Axes) -> None:
     _words(ax, (-0.05, 0.62), r"$dX$ is $\lambda\,dX$ long")
     _arrow(ax, (-0.5, 0.2), (0.55, 0.2), "black", 1.4)
     _words(ax, (-0.02, 0.36), r"$F_{ss}$, $dc$")
-    _words(ax, (2.2, 0.2), r"new face: $J\,dc$", color=BLUE)
-    _words(ax, (-1.95, 0.72), "slipped face", color=GREY)
-    ax.plot([-2.6, 2.7], [0.0, 0.0], color=GREY, lw=0.6, ls=":")
+    _words(ax, (2.25, 0.2), r"new face: $J\,dc$", color=BLUE)
+    _words(ax, (-1.85, 0.72), "slipped face", color=GREY)
+    ax.plot([_LEFT, _RIGHT], [0.0, 0.0], color=GREY, lw=0.6, ls=":")
     ax.plot([_TIP], [0.0], "o", color=BLUE, ms=3.0, zorder=5)
-    ax.set(xlim=(-2.6, 2.9), ylim=(-0.05, 1.9), aspect="equal")
+    ax.set(xlim=(_LEFT, _RIGHT), ylim=(-0.05, 1.9), aspect="equal")
     ax.axis("off")
 
 
@@ -110,17 +123,20 @@ def _slips(ax: Axes, campaign: Campaign) -> None:
     there &= np.isclose(rows["alpha"], _ALPHA) & np.isfinite(rows["energy_release_rate"])
     numbers = np.flatnonzero(there)
     rate = np.log(rows["energy_release_rate"][numbers])
-    ends = []
+    ends, names, colours = [], [], {}
     for g, colour in zip(_TOUGHNESSES, COLOURS, strict=False):
         row = numbers[np.argmin(np.abs(rate - np.log(g)))]
-        degrees = np.degrees(rows["pressure_angle"][row])
+        degrees, stretch = np.degrees(rows["pressure_angle"][row]), rows["stretch"][row]
         name = rf"$\lambda$, $g$ = {rows['energy_release_rate'][row]:.2g}"
-        ax.plot(degrees, rows["stretch"][row], color=colour, lw=1.3, label=name)
+        ax.plot(degrees, stretch, color=colour, lw=1.3, label=name)
+        names.append((float(stretch[np.nanargmax(degrees)]), name))
+        colours[name] = colour
         ends.append((np.nanmin(degrees), np.nanmax(degrees)))
     low, high = min(one for one, _ in ends), max(one for _, one in ends)
     angle = np.linspace(low, high, 200)
-    ax.plot(angle, np.sin(np.radians(angle)), "k--", lw=1.1, label=r"$\sin\theta$, of Eq. (7)")
-    ax.set(ylim=(0.0, None))
+    ax.plot(angle, np.sin(np.radians(angle)), "k--", lw=1.1)
+    names.append((math.sin(math.radians(high)), r"$\sin\theta$, of Eq. (7)"))
+    ax.set(ylim=(0.0, None), xlim=(low - 3.0, high + 1.0))
+    label_at_right(ax, names, colours)
     label_axes(ax, r"place under the wire $\theta$ [degrees]", "slip for each advance [-]")
-    ax.legend(fontsize=SMALL, frameon=False, loc="lower center", handlelength=1.6)
     ax.set_title(rf"$\alpha$ = {_ALPHA:g}, no shear", fontsize=SMALL, loc="right")

@@ -295,26 +295,28 @@ def exponent_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     """
     left, right = panels(figure, 2)[0]
     ends: list[list[tuple[float, str]]] = [[], []]
+    names: dict[str, str] = {}
     for one in curves:
         style = {"lw": 1.1, **STYLES[one.alpha], "marker": ""}
-        marks = {**style, "ls": "", "marker": STYLES[one.alpha]["marker"], "ms": 2.2}
+        marks = {**style, "lw": 0.6, "marker": STYLES[one.alpha]["marker"], "ms": 3.0}
         slope = local_exponent(one.g, one.normal_load)
         high = one.g >= 0.5
         left.plot(one.g[high], slope[high], **style)
         free, fixed = over_lower_end(one, False), over_lower_end(one, True)
         right.plot(*free, **style)
-        right.plot(*fixed, **marks)
+        right.plot(*fixed, **marks, markevery=max(1, len(fixed[0]) // 6))
+        names[rf"$\alpha$ = {one.alpha:g}"] = style["color"]
         for side, value in zip(ends, (slope[high][-1], free[1][-1]), strict=True):
             side.append((float(value), rf"$\alpha$ = {one.alpha:g}"))
         for ax in (left, right) if one.alpha in TABLE_1 else ():
             ax.axhline(TABLE_1[one.alpha], color=style["color"], ls=":", lw=0.9)
     for ax, side in zip((left, right), ends, strict=True):
-        ax.set(xscale="log", ylim=(0.0, 1.3))
-        label_at_right(ax, side)
+        ax.set(xscale="log", ylim=(0.0 if ax is left else 0.6, 1.3))
+        label_at_right(ax, side, names)
     handles = right.plot(
         [], [], "k-", lw=1.1, label="$d\\,\\ln B/d\\,\\ln g$, and $n$ with $C$ free"
     )
-    handles += right.plot([], [], "ko", ms=2.2, label="$n$ with $C = 1$")
+    handles += right.plot([], [], "ko-", lw=0.6, ms=3.0, label="$n$ with $C = 1$")
     handles += right.plot([], [], "k:", lw=0.9, label="Table 1")
     label_axes(left, TOUGHNESS, r"$d\,\ln B/d\,\ln g$ [-]")
     lowest = "lowest $g$ of the fit, up to the largest [-]"

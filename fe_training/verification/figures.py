@@ -49,9 +49,6 @@ _SYMBOLS = {
 }
 
 
-#: Exponents whose points are joined by lines; more of them would tangle.
-_MOST_LINES = 3
-
 #: Values below this are drawn on it: rounding.
 _SMALLEST_DRAWN = 1e-8
 
@@ -88,8 +85,8 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
     """Draw a measure of a study against g, with its bound.
 
     Where several variants are compared each has its colour, else each exponent; an exponent has
-    its marker. Lines join the points of an exponent or, where they would be many, the largest of
-    all exponents.  Hollow markers break the bound; crosses on the upper edge were not reached.
+    its marker. A line joins the largest of all exponents. Hollow markers break the bound; crosses
+    on the upper edge were not reached.
 
     Parameters
     ----------
@@ -146,12 +143,9 @@ def plot_measure(result: StudyResult, name: str, ax: Axes | None = None) -> Axes
                     mew=0.8,
                     zorder=3,
                 )
-            if not by_variant and len(alphas) <= _MOST_LINES:
-                ax.plot([x for x, *_ in known], [y for _, y, _ in known], "-", color=colour, lw=0.6)
-    if by_variant or len(alphas) > _MOST_LINES:
-        for i, variant in enumerate(variants if by_variant else [None]):
-            colour = _colour(i) if by_variant else GREY
-            ax.plot(*_largest(rows, variant, by_alpha), "-", color=colour, lw=0.8)
+    for i, variant in enumerate(variants if by_variant else [None]):
+        colour = _colour(i) if by_variant else GREY
+        ax.plot(*_largest(rows, variant, by_alpha), "-", color=colour, lw=0.8, zorder=1)
     _draw_bounds(ax, rows, by_alpha)
     ax.set_xscale("linear" if by_alpha else "log")
     if any(math.isfinite(m.value) for _, m in rows):

@@ -7,6 +7,7 @@ from typing import Any
 
 from surrogate.basics.files import check_outputs
 from surrogate.basics.records import number
+from surrogate.choosing.by_name import AUTO
 from surrogate.cli.common import (
     Record,
     add_friction_and_stiffening,
@@ -58,7 +59,7 @@ def add_explore_options(command: argparse.ArgumentParser) -> None:
     ):
         add(f"--{name}", type=quantity(dimension), metavar=metavar, help=words)
     add_friction_and_stiffening(command, friction=None, stiffening=None)
-    add_law_option(command)
+    add_law_option(command, any_law=True)
 
 
 def run_explore(options: argparse.Namespace) -> int:
@@ -97,6 +98,8 @@ def _identified(
         return None
     names = ("friction_coefficient", "stiffening_exponent")
     solid: dict[str, Any] = {name: known.get(name) for name in names}
+    if options.law != AUTO:
+        solid["law"] = options.law
     return identify(
         cuts.wire_radius,
         cuts.force,
@@ -104,7 +107,6 @@ def _identified(
         force_std=cuts.force_std,
         sample=cuts.samples,
         model=_MODEL,
-        law=options.law,
         **solid,
     )
 

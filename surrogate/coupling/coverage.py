@@ -79,7 +79,7 @@ def _is_covered(kappa: Amplification, box: Box) -> bool:
     if size == 0.0:
         return True
     g = g_range(box)
-    if not 0.0 < g[0] <= g[1] < math.inf or g[0] < kappa.lowest:
+    if g[0] <= 0.0 or not kappa.lowest <= g[0] <= g[1] <= kappa.highest:
         return False
     x, y = _place(kappa, g, box["stiffening_exponent"])
     if not all(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
 from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.contact.bounds import Bounds
@@ -15,6 +16,7 @@ from surrogate.contact.shipped import folder_in_use
 from surrogate.coupling.amplification import LEAST_SHARE
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification
 from surrogate.cutting.regimes import DOMINANT_SHARE, PARTS
+from surrogate.explorer.reading import reading
 from surrogate.reading import plausibility
 from surrogate.reading.measurements import Measurements
 from surrogate.reading.plausibility import Plausible
@@ -81,8 +83,10 @@ def page_numbers(
             for name in TERMS_OF_LAW[law]
         },
         "threshold": DOMINANT_SHARE,
+        "rtol": DEFAULT_RTOL,
         "transition": PARTS[0],
         "parts": PARTS[1:],
+        "reading": reading(),
         "quantities": [_quantity(*one, alpha=limits.alpha) for one in _SHOWN],
         "start": {
             **{KEYS[name]: float(value) for name, value in zip(NAMES, scene.values(), strict=True)},
@@ -121,6 +125,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "largest": kappa.largest,
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
+            "growth": kappa.growth.tolist(),
             "lowest": kappa.lowest,
             "highest": kappa.highest,
             "leastShare": LEAST_SHARE,

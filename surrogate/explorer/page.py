@@ -13,8 +13,9 @@ import numpy as np
 from surrogate.basics.checks import flag
 from surrogate.basics.figures import COLOURS, FILLS
 from surrogate.basics.files import file_name, written_whole
+from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.candidates import OUTSIDE, candidates
-from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, of_law
 from surrogate.cutting.regimes import PARTS
 from surrogate.errors import InputError
 from surrogate.explorer.numbers import GEL, data_date, functions_of, page_numbers
@@ -26,7 +27,10 @@ from surrogate.version import __version__
 
 __all__ = ["explorer_page", "write_explorer"]
 
-SCRIPTS = ("physics", "words", "coupled", "plot", "map", "forces", "controls", "output", "main")
+SCRIPTS = (
+    *("physics", "words", "coupled", "auto", "plot", "map", "forces", "table", "controls", "cuts"),
+    *("output", "main"),
+)
 """The parts of the program, each using what stands before it; that of a law only if it is known."""
 
 
@@ -35,7 +39,7 @@ def write_explorer(
     scene: Scene | None = None,
     cuts: Measurements | None = None,
     *,
-    law: str = PROJECTED,
+    law: str = AUTO,
     diameters: bool = False,
 ) -> Path:
     """Write a page for browsers on which the quantities of a cut can be moved.
@@ -54,7 +58,7 @@ def write_explorer(
         wire of 0.25 mm radius.
     cuts : Measurements, optional
         Own cuts, as `read_measurements` returns them, to be drawn over the curves.
-    law : str, default "projected"
+    law : str, default "auto"
         The law of wear and friction that is shown first, as in `cutting_force`.
     diameters : bool, default False
         Whether to show diameters of wires instead of radii.
@@ -102,7 +106,7 @@ def explorer_page(
     scene: Scene | None = None,
     cuts: Measurements | None = None,
     *,
-    law: str = PROJECTED,
+    law: str = AUTO,
     diameters: bool = False,
 ) -> str:
     """Return the page that `write_explorer` writes.
@@ -118,7 +122,7 @@ def explorer_page(
             f"cuts must be Measurements, but is {type(cuts).__name__}; give what read_measurements "
             "returns."
         )
-    of_law(OUTSIDE, law)
+    of_law(AUTO, law, any_law=True)
     known = candidates()
     numbers = page_numbers(known, first, cuts, law, flag("diameters", diameters))
     parts = {

@@ -12,6 +12,7 @@ from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, TIME, Dimension, Unit
 
 __all__ = [
+    "AVERAGE",
     "Heading",
     "Vocabulary",
     "bare",
@@ -29,7 +30,7 @@ Vocabulary = Mapping[str, Sequence[tuple[str, Dimension]]]
 
 _BRACKETED = re.compile(r"(.*?)[\s_]*[\[({<]\s*([^\[\](){}<>]*?)\s*[\])}>]", re.DOTALL)
 _INSIDE = re.compile(r"(.*?)[\s_]*[\[(]\s*([^\[\]()]*?)\s*[\])]\s*(\w[\w .]*)")
-_AVERAGE = re.compile(
+AVERAGE = re.compile(
     r"^(mean|average|avg|mittelwert|mittlere|mittlerer|moyenne|media|srednia)( of| der| de la)? "
     r"|[ (]+(mean|average|avg|mittelwert|moyenne|media|srednia)\)?$"
 )
@@ -176,7 +177,7 @@ def meaning(name: str, words: Vocabulary) -> tuple[Sequence[tuple[str, Dimension
     A word of the vocabulary that ends with n means something with a number only.
     """
     key = plain(name)
-    for known in (key, _AVERAGE.sub("", key)):
+    for known in (key, AVERAGE.sub("", key)):
         if known in words:
             return words[known], False
     counted = re.fullmatch(r"(.*?) ?[0-9]{1,3}", key)

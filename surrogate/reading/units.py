@@ -43,7 +43,7 @@ class Dimension:
         Capitals matter (mN is no MN), but for those that can mean one thing only, such as MM.
         """
         spelled = _spelled(text)
-        for name in (spelled, _SYNONYMS.get(spelled.lower(), spelled)):
+        for name in (spelled, SYNONYMS.get(spelled.lower(), spelled)):
             if name in self.powers:
                 return Unit(self.powers[name])
             if name in self.others:
@@ -65,7 +65,7 @@ class Dimension:
 _SUPERSCRIPTS = str.maketrans(
     {"²": "2", "³": "3", "¹": "1", "⁻": "-", "−": "-", "µ": "u", "μ": "u"}
 )
-_SYNONYMS = {
+SYNONYMS = {
     **{name: name for name in ("mm", "cm", "um", "in", "gf", "kgf", "lbf", "g", "kg", "s", "min")},
     **{"kn": "kN", "n": "N", "kpa": "kPa", "n/mm": "N/mm", "n/m": "N/m"},
     **{"kn/m": "kN/m", "n/cm": "N/cm", "gf/mm": "gf/mm", "gf/cm": "gf/cm"},

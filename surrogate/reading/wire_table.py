@@ -20,7 +20,16 @@ from surrogate.reading.headings import (
 from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, Dimension
 
-__all__ = ["COLUMNS", "Table", "find_table", "has_table"]
+__all__ = [
+    "COLUMNS",
+    "COUNT",
+    "DEVIATION",
+    "SUMMARY",
+    "WORDS",
+    "Table",
+    "find_table",
+    "has_table",
+]
 
 COLUMNS: dict[str, Dimension] = {
     "wire_radius": LENGTH,
@@ -39,7 +48,7 @@ _SPREAD = (
     "desviacion estandar,error estandar,deviazione standard,errore standard,desvio padrao,"
     "standaardafwijking,odchylenie standardowe,标准差,標準偏差,標準誤差"
 )
-_WORDS = vocabulary(
+WORDS = vocabulary(
     {
         "wire_radius": [("wire_radius", LENGTH)],
         "wire_diameter": [("wire_diameter", LENGTH)],
@@ -83,15 +92,15 @@ _WORDS = vocabulary(
         "versuch n,cut n,schnitt n,wiederholung n,essai n,ensayo n,prova n,meting n",
     },
 )
-_SUMMARY = re.compile(
+SUMMARY = re.compile(
     r"(mean|average|median|std|sd|stdev|st dev|standard deviation|standard error|sem|cov|cv|"
     r"coefficient of variation|minimum|maximum|min|max|range|sum|"
     r"mittelwert|standardabweichung|variationskoeffizient|spannweite|moyenne|ecart type|"
     r"media|mediana|desviacion estandar|deviazione standard|x quer|n|x̄)( [±+-] .*)?"
 )
 """First cells of lines below a table that sum it up, and are no measurements."""
-_COUNT = {"n", "count", "number", "anzahl", "number of cuts", "number of tests", "repeats", "cuts"}
-_DEVIATION = re.compile(
+COUNT = {"n", "count", "number", "anzahl", "number of cuts", "number of tests", "repeats", "cuts"}
+DEVIATION = re.compile(
     r"\b(sd|stdev|std dev|st dev|standard deviation|standardabweichung|ecart type|"
     r"desviacion estandar|deviazione standard|desvio padrao|standaardafwijking|"
     r"odchylenie standardowe|标准差|標準偏差)\b"
@@ -159,7 +168,7 @@ def has_table(sheet: Sheet) -> bool:
         one[0][0] in ("wire_radius", "wire_diameter")
         for row in sheet.rows[:200]
         for cell in row.cells
-        if (one := meaning(split_unit(cell, _WORDS)[0], _WORDS)[0])
+        if (one := meaning(split_unit(cell, WORDS)[0], WORDS)[0])
     )
 
 
@@ -192,7 +201,7 @@ def find_table(sheet: Sheet, by: str | None = None) -> tuple[Sheet, Table]:
     units = body.pop(0) if body and is_units_row(sheet, body[0]) else None
     summary = [row for row in body if _sums_up(row)]
     header, units, body = _tidied(header, units, [row for row in body if row not in summary])
-    listed = headings(sheet, header, _WORDS, units)
+    listed = headings(sheet, header, WORDS, units)
     gel = None if by is None else _named(sheet, header, listed, by)
     named = [one.number - 1 for one in listed if plain(one.name) in _SAMPLE]
     sample = next((index for index in named if index != gel), None)
@@ -234,15 +243,15 @@ def _is_of_steady(column: str) -> bool:
 def _sums_up(row: Row) -> bool:
     """Whether a row begins with a word such as Mean."""
     first = next(filter(None, row.cells), "")
-    return _SUMMARY.fullmatch(plain(first)) is not None
+    return SUMMARY.fullmatch(plain(first)) is not None
 
 
 def _count(table: Table, listed: list[Heading]) -> int | None:
     """Return the index of the column that tells how many cuts a standard deviation is of."""
     stds = [one for kind in ("force_std", "total_std") for one in table.columns.get(kind, ())]
-    if not any(_DEVIATION.search(plain(one.name)) for one in stds):
+    if not any(DEVIATION.search(plain(one.name)) for one in stds):
         return None
-    return next((one.number - 1 for one in listed if plain(one.name) in _COUNT), None)
+    return next((one.number - 1 for one in listed if plain(one.name) in COUNT), None)
 
 
 def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row | None, list[Row]]:
@@ -255,7 +264,7 @@ def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row |
         unit = _unit_apart(rows, column, names[column])
         below[column] = unit or below[column]
         if errors and _is_force(names[column]):
-            text = split_unit(names[column], _WORDS)[1] or below[column]
+            text = split_unit(names[column], WORDS)[1] or below[column]
             names.append(f"± [{text}]")
             below.append(text)
             for row, error in zip(rows, errors, strict=True):
@@ -269,7 +278,7 @@ def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row |
 
 
 def _is_force(name: str) -> bool:
-    meanings, _ = meaning(split_unit(name, _WORDS)[0], _WORDS)
+    meanings, _ = meaning(split_unit(name, WORDS)[0], WORDS)
     return any(quantity in ("force", "force_per_thickness") for quantity, _ in meanings)
 
 
@@ -293,7 +302,7 @@ def _unit_apart(rows: list[list[str]], column: int, name: str) -> str:
     if len(units) != 1 or "" in units:
         return ""
     (unit,) = units
-    stated = split_unit(name, _WORDS)[1]
+    stated = split_unit(name, WORDS)[1]
     known = any(kind.unit(unit) for kind in (LENGTH, FORCE, LINE_FORCE))
     if not known or stated not in (None, unit):
         return ""
@@ -309,7 +318,7 @@ def _filled(heading: Heading, body: list[Row]) -> bool:
 
 
 def _known(name: str) -> bool:
-    return bool(meaning(split_unit(name, _WORDS)[0], _WORDS)[0])
+    return bool(meaning(split_unit(name, WORDS)[0], WORDS)[0])
 
 
 def _names(cells: Sequence[str]) -> bool:
@@ -320,7 +329,7 @@ def _header(sheet: Sheet) -> int:
     """Return the index of the header: the row that names a wire, or else any quantity."""
     for wanted in ({"wire_radius", "wire_diameter"}, set(COLUMNS)):
         for index, row in enumerate(sheet.rows[:200]):
-            means = [meaning(split_unit(cell, _WORDS)[0], _WORDS)[0] for cell in row.cells]
+            means = [meaning(split_unit(cell, WORDS)[0], WORDS)[0] for cell in row.cells]
             if len(row.cells) > 1 and any(one[0][0] in wanted for one in means if one):
                 return index
     return 0

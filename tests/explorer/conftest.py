@@ -53,6 +53,12 @@ class Page:
     def text(self, name):
         return self.run(f"return document.getElementById('{name}').textContent;")
 
+    def wait(self, condition, seconds=60):
+        """Wait until a condition of the page holds."""
+        from selenium.webdriver.support.ui import WebDriverWait
+
+        WebDriverWait(self.driver, seconds, 0.05).until(lambda _: self.run(f"return {condition};"))
+
     def element(self, name):
         return self.driver.find_element("id", name)
 

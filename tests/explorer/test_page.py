@@ -69,6 +69,7 @@ def test_kappa_is_written_to_the_last_digit():
     np.testing.assert_array_equal(np.transpose(powers), kappa.polynomial.powers)
     np.testing.assert_array_equal(coefficients, kappa.polynomial.coefficients)
     np.testing.assert_array_equal(told["errors"], kappa.errors)
+    np.testing.assert_array_equal(told["growth"], kappa.growth)
 
 
 def test_models_without_kappa_make_a_page_without_its_law(tmp_path):
@@ -78,8 +79,8 @@ def test_models_without_kappa_make_a_page_without_its_law(tmp_path):
         page = explorer_page()
         with pytest.raises(InputError, match=AMPLIFICATION_FILE):
             explorer_page(law="coupled")
-    assert "coupled" not in page
-    assert "coupled" in explorer_page()
+    assert 'name: "coupled"' not in page
+    assert 'name: "coupled"' in explorer_page()
     (tmp_path / AMPLIFICATION_FILE).write_bytes(b"damaged")
     with in_use(tmp_path / FILE), pytest.raises(InputError, match=AMPLIFICATION_FILE):
         explorer_page()

@@ -63,22 +63,6 @@ function showField({q, caption, slider, number, unit}, state) {
 
 const isCut = (across, force) => across > 0 && across < 1e3 && force >= 0 && force < 1e300;
 
-// The cuts of a text: a wire in mm and a force in N/m in each line, and its standard error.
-function cutsOf(text, diameters) {
-  const cuts = [], wrong = [];
-  for (const line of text.split("\n")) {
-    if (!line.trim() || line.trim().startsWith("#")) continue;
-    const between = /[\s;]/.test(line.trim()) ? /[\s;]+/ : ",";  // where a comma may be decimal
-    const [across, force, std] = line.trim().split(between).map(readNumber);
-    if (isCut(across, force) && !(std < 0)) cuts.push([1e-3*across/(diameters ? 2 : 1), force, std || null]);
-    else wrong.push(line.trim());
-  }
-  return {cuts, wrong};
-}
-
-const cutsText = (cuts, diameters) => cuts.map(([radius, force, std]) =>
-  [Number((1e3*radius*(diameters ? 2 : 1)).toPrecision(6)), force, ...(std ? [std] : [])].join("  ")).join("\n");
-
 const KEYS = Object.keys(QUANTITIES);
 
 // The address after the sign #: quantities in SI units, law, diameters and cuts.

@@ -3,7 +3,8 @@
 // ln kappa, a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu), where it is
 // known, and how far it may be off.
 const KAPPA = (() => {
-  const {touch, terms, axes, reach, largest, edges, errors, leastShare} = DATA.coupled, {lowest, highest} = DATA.coupled;
+  const {touch, terms, axes, reach, largest, edges, errors, growth} = DATA.coupled;
+  const {lowest, highest, leastShare} = DATA.coupled;
 
   // The coefficients by the power of the first variable, and so on; a number where none is left.
   function nested(rows) {
@@ -62,7 +63,13 @@ const KAPPA = (() => {
     const wear = known ? s.tau_w/s.mu : reached*largest[1]*clamped(2*direction, 0, 1);
     const inside = near.every((one, n) => one === place[n])
       && g >= lowest*(1 - 1e-9) && g <= highest*(1 + 1e-9);
-    return {inside, free: inside && known, unloaded: size === 0, size, reached, variables: [...near, xi, Math.log1p(wear)]};
+    const variables = [...near, xi, Math.log1p(wear)];
+    return {inside, free: inside && known, unloaded: size === 0, size, reached, variables};
+  }
+
+  function ofCell(table, g, s) {
+    const [row, column] = placeOf(g, s.alpha).map((one, n) => intervalOf(edges[n], one));
+    return table[row][column];
   }
 
   return {
@@ -76,10 +83,12 @@ const KAPPA = (() => {
       return free || unloaded;
     },
     ownError: (g, s) => {
-      const [row, column] = placeOf(g, s.alpha).map((one, n) => intervalOf(edges[n], one));
       const {size, reached} = at(g, s);
-      return Math.expm1(errors[row][column]*clamped(size/reached, leastShare, 1));
+      return Math.expm1(ofCell(errors, g, s)*clamped(size/reached, leastShare, 1));
     },
+    // A bound of |ln kappa| where it is known: how far the first order may be off in its own force.
+    most: (g, s) => ofCell(growth, g, s)*(s.xi + 0.1*Math.log1p(s.tau_w/s.mu)),
+    reaches: (g, s) => at(g, s).free,
     inside: (g, s) => at(g, s).inside,
     ends: axes.map((axis) => [axis[0], axis[axis.length - 1]]),
   };

@@ -18,7 +18,7 @@ function curveOf(law, state, right, count = CURVE) {
   radii.push(touch*(1 - 1e-9), touch*(1 + 1e-9));  // A* jumps there
   const inside = radii.filter((r) => r >= low && r <= high).sort((a, b) => a - b);
   const at = (radius) => ({radius, ...forceOf(law, withRadius(state, radius))});
-  return runsOf(withEnds(inside, (radius) => at(radius).total !== undefined).map(at));
+  return runsOf(withEnds(inside, (radius) => at(radius).total !== undefined && (at(radius).law ?? true)).map(at));
 }
 
 // Radii, and beside them those at which a condition changes.
@@ -35,6 +35,8 @@ function withEnds(radii, condition) {
 function runsOf(points) {
   const runs = [[]];
   for (const one of points) {
+    const latest = runs[runs.length - 1];
+    if (one.law !== latest[latest.length - 1]?.law && latest.length) runs.push([]);  // where "auto" takes another law
     if (one.total < 1e300) runs[runs.length - 1].push(one);
     else if (runs[runs.length - 1].length) runs.push([]);
   }
@@ -66,7 +68,8 @@ function drawParts(frame, curve, x, y) {
     if (curve.some((one) => one[part] > 0)) {
       frame.append(svg("path", {d: pathOf([...up, ...down], true), class: `fill-${part}`}));
       const i = Math.floor(0.8*(curve.length - 1)), middle = y.to(0.5*(above[i] + below[i]));
-      if (y.to(below[i]) - y.to(above[i]) > 15) {
+      const wide = x.to(curve[curve.length - 1].radius) - x.to(curve[0].radius) > 60;
+      if (wide && y.to(below[i]) - y.to(above[i]) > 15) {
         names.push(note(part, {x: x.to(curve[i].radius), y: middle + 4, "text-anchor": "middle"}));
       }
     }
@@ -110,13 +113,18 @@ function drawOthers(frame, others, x, y, taken) {
 
 const endOf = (runs) => runs[runs.length - 1][runs[runs.length - 1].length - 1];
 
-// Names at the right ends of lines, a line's height apart.
-function endLabels(frame, labels, x) {
+// Names at the right ends of lines, a line's height apart and none below the axis.
+function endLabels(frame, labels, x, y) {
   let least = -Infinity;
-  for (const [at, words, kind] of [...labels].sort((a, b) => a[0] - b[0])) {
-    const y = Math.max(at, least + 15);
-    least = y;
-    frame.append(lettered(words, {x: x.end + 5, y: y + 4, class: `name ${kind}`}));
+  const placed = [...labels].sort((a, b) => a[0] - b[0]).map(([at, words, kind]) => {
+    least = Math.max(at, least + 15);
+    return {at: least, words, kind};
+  });
+  let most = y.start - 4;
+  for (const one of placed.reverse()) {
+    one.at = Math.min(one.at, most);
+    most = one.at - 15;
+    frame.append(lettered(one.words, {x: x.end + 5, y: one.at + 4, class: `name ${one.kind}`}));
   }
 }
 
@@ -152,14 +160,15 @@ function drawForces(plot, state, size, change) {
   frame.append(svg("clipPath", {id: plot.inside.slice(5, -1)}, svg("rect", {...box})), lines);
   const names = main.flatMap((run) => drawParts(lines, run, x, y));
   main.forEach((run) => drawTotal(lines, run, x, y));
-  const others = LAWS.map((one, i) => ({law: one, curve: curves[i] ?? []})).filter((one) => one.law !== law);
+  const others = LAWS.map((one, i) => ({law: one, curve: curves[i] ?? []}))
+    .filter((one) => one.law !== law && !one.law.forceOf);
   drawOthers(lines, others, x, y, labels);
   if (main.length) labels.push([y.to(endOf(main).total), law.title, "main"]);
   const tick = axes({...inner}, y, state.diameters ? "wire diameter D [mm]" : "wire radius R_w [mm]",
     "F_ss/T [N/m]");
   frame.append(tick, ...names);
   if (main.length) drawTransition(frame, transitionOf(law, state).radius, x, y);
-  endLabels(frame, labels, x);
+  endLabels(frame, labels, x, y);
   drawCuts(frame, state, x, y);
   placeOnCurve(plot, state, law, x, y);
   plot.move = (px) => change({R_w: round4(clamped(x.from(px), right/500, right))});

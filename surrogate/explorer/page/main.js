@@ -71,7 +71,7 @@ function showLaws(refused) {
     row.className = law.name === state.law ? "shown" : "";
     const head = document.createElement("th");
     head.scope = "row";
-    head.textContent = capital(law.title);
+    head.textContent = capital(law.title) + (force?.law ? `: ${force.law}` : "");
     head.title = law.says;
     row.append(head, ...cells(law, force).map((content) => {
       const cell = document.createElement("td");
@@ -81,7 +81,7 @@ function showLaws(refused) {
     return row;
   });
   byId("laws").replaceChildren(...rows);
-  byId("laws-unknown").replaceChildren(...htmlOf(refused ? "" : LAWS.map(saysUnknown).filter(Boolean).join(" ")));
+  byId("laws-unknown").replaceChildren(...htmlOf(refused ? "" : LAWS.filter((law) => !law.forceOf).map(saysUnknown).filter(Boolean).join(" ")));
 }
 
 function showAnswer(refused) {
@@ -90,8 +90,8 @@ function showAnswer(refused) {
   answer.classList.toggle("refused", Boolean(refused));
   byId("number").replaceChildren(force ? datum("total", force.total, digits(force.total)) : "no force");
   byId("number-unit").textContent = force ? "N/m" : "";
-  byId("may-be-off").textContent = !force ? "" : Number.isFinite(force.error)
-    ? `error up to ${percentUp(force.error)}` : "error unknown";
+  const error = force && (Number.isFinite(force.error) ? `error up to ${percentUp(force.error)}` : "error unknown");
+  byId("may-be-off").textContent = !force ? "" : force.law ? `${error}, by the law “${force.law}”` : error;
   byId("bar").textContent = force ? `${byId("number").textContent} N/m, ${byId("may-be-off").textContent}` : "no force";
   const sentences = sentencesOf(state);
   byId("says").replaceChildren(...sentences.map((text) => {
@@ -138,8 +138,7 @@ function show() {
   document.querySelectorAll("[name=law]").forEach((one) => { one.checked = one.value === state.law; });
   byId("diameters").checked = state.diameters;
   byId("law-says").replaceChildren(...htmlOf(`${capital(lawOf(state.law).says)}.`));
-  byId("cuts-unit").textContent = state.diameters ? "diameter in mm" : "radius in mm";
-  if (document.activeElement !== byId("cuts")) byId("cuts").value = cutsText(state.cuts, state.diameters);
+  showCuts(state);
   announce();
   if (parent !== window) parent.postMessage({wirecutHeight: document.body.scrollHeight + 32}, "*");
 }
@@ -156,12 +155,7 @@ function begin() {
   byId("quantities").append(...fields.map((one) => one.row));
   byId("law-choice").append(...LAWS.map(lawChoice));
   byId("diameters").addEventListener("change", (event) => change({diameters: event.target.checked}));
-  byId("cuts").addEventListener("input", (event) => {
-    const {cuts, wrong} = cutsOf(event.target.value, state.diameters);
-    byId("cuts-wrong").textContent = wrong.length
-      ? `Not understood, and left out: ${wrong.slice(0, 3).join(" | ")}. Write a wire in mm and a force in N/m.` : "";
-    change({cuts});
-  });
+  listenForCuts(change);
   Object.values(plots).forEach((plot) => { plot.held = holdWords; });
   byId("reset").addEventListener("click", () => change({...DATA.start}));
   byId("save-picture").addEventListener("click", () =>

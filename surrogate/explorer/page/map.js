@@ -5,37 +5,36 @@ const MAP = {x: [1/DATA.domain.g[1], 1/DATA.domain.g[0]], y: [1e-3, 1e2], column
 // A cut at a place of the map, in units of Gamma_o = R_w = 1.
 const atPlace = (x, y, {xi, alpha}) => ({Gamma_o: 1, R_w: 1, mu: x, tau_w: y, xi, alpha});
 
-const LOWEST = MAP.y[0]*1e-3, HIGHEST = MAP.y[1]*1e3;
-
-// The y between which a law has a force at one x: the longest stretch of them, or nan. Gaps that are
-// narrower than a sixteenth of a decade may be missed.
-function coverAt(law, x, state) {
-  const has = (y) => law.covers(1/x, atPlace(x, y, state));
-  const ys = spaced(LOWEST, HIGHEST, 16), stretches = [];
-  ys.forEach((y, i) => {
-    if (!has(y)) return;
-    const from = !i ? y : has(ys[i - 1]) ? null : changeBetween(has, ys[i - 1], y);
-    if (from !== null) stretches.push([from, y]);
-    const last = stretches[stretches.length - 1];
-    last[1] = i + 1 === ys.length || has(ys[i + 1]) ? y : changeBetween(has, y, ys[i + 1])*(1 - 1e-9);
-  });
-  return stretches.sort((a, b) => b[1]/b[0] - a[1]/a[0])[0] ?? [NaN, NaN];
+// What a law says of a place: the part that dominates, null without a force, and whether its error is known.
+function saidOf(law, x, y, state) {
+  const force = forceOf(law, atPlace(x, y, state));
+  return force ? {part: dominantOf(force), known: !law.forceOf || Number.isFinite(force.error)} : {part: null, known: false};
 }
 
-// The y at which wear rises above, or a part falls below, the threshold at one x.
-function edgeAt(law, part, x, state, [low, high]) {
-  if (Number.isNaN(low)) return NaN;
-  const dominates = (y) => {
-    const force = forceOf(law, atPlace(x, y, state));
-    return force !== null && force[part]/force.total >= DATA.threshold;
+// The stretches of y at one x in which a law says the same, to 8 digits. One that begins and ends within a tenth of
+// a decade may be missed.
+function columnOf(law, x, state) {
+  const at = (y) => {
+    const said = saidOf(law, x, y, state);
+    return {...said, key: Object.values(said).join(), from: y};
   };
-  if (dominates(low) === dominates(high)) return !dominates(low) ? NaN : part === "wear" ? low : Infinity;
-  return changeBetween(dominates, low, high);
+  const stretches = [at(MAP.y[0])];
+  for (const y of spaced(...MAP.y, 10)) {
+    const {key} = at(y);
+    for (let latest = stretches.at(-1), tries = 0; latest.key !== key && tries < 6; ++tries) {
+      const next = at(changeBetween((one) => at(one).key === latest.key, latest.seen ?? latest.from, y, 26));
+      stretches.push(next);
+      latest = next;
+    }
+    stretches.at(-1).seen = y;
+  }
+  stretches.forEach((one, i) => { one.to = stretches[i + 1]?.from ?? MAP.y[1]; });
+  return {x, stretches};
 }
 
 let regionsKept = {key: ""};
 
-// The edges of the regions, and between which y the law has a force; they depend on the law, xi and alpha alone, and are kept.
+// The columns of the map, each with its stretches; they depend on the law, xi and alpha alone, and are kept.
 function regionsOf(state) {
   const key = [state.law, state.xi, state.alpha].join();
   if (regionsKept.key === key) return regionsKept;
@@ -43,29 +42,43 @@ function regionsOf(state) {
   const low = Math.max(MAP.x[0], (1 + 1e-9)/highestG(state.alpha)), touch = 1/touchOf(state.alpha);
   const ratio = Math.log(MAP.x[1]*(1 - 1e-9)/low)/(MAP.columns - 1);
   const across = Array.from({length: MAP.columns}, (_, i) => low*Math.exp(i*ratio));
-  across.push(touch*(1 - 1e-9), touch*(1 + 1e-9));
-  for (const end of law.ends?.[0] ?? []) across.push(...[1 - 1e-9, 1 + 1e-9].map((near) => near*touch/Math.exp(end)));
+  for (const edge of [touch, ...(law.ends?.[0] ?? []).map((end) => touch/Math.exp(end))]) {
+    across.push(edge*(1 - 1e-9), edge*(1 + 1e-9));
+  }
   const xs = across.filter((x) => x >= low && x < MAP.x[1]).sort((a, b) => a - b);
-  const covers = xs.map((x) => [x, ...coverAt(law, x, state)]);
-  const edges = Object.fromEntries(DATA.parts.map((part) =>
-    [part, covers.map(([x, ...ends]) => [x, edgeAt(law, part, x, state, ends)])]));
-  regionsKept = {key, edges, covers};
+  regionsKept = {key, columns: xs.map((x) => columnOf(law, x, state))};
   return regionsKept;
 }
 
-// The polygons of a region: wear lies above its edge, the others below theirs.
-function regionPaths(edge, part, x, y) {
-  const bottom = y.start, top = y.end, base = part === "wear" ? top : bottom, runs = [[]];
-  edge.forEach(([at, value], i) => {
-    if (Number.isNaN(value)) return runs.push([]);
-    const run = runs[runs.length - 1];
-    if (!run.length && i) run.push([x.to(at), base]);  // a region that begins inside the map
-    run.push([x.to(at), Math.min(bottom, Math.max(top, y.to(value)))]);
-    if (i + 1 < edge.length && Number.isNaN(edge[i + 1][1])) run.push([x.to(at), base]);
+// The columns side by side that have the same stretches, one above the other.
+function runsOfColumns(columns) {
+  const keyOf = ({stretches}) => stretches.map((one) => one.key).join(" "), runs = [];
+  columns.forEach((column, i) => {
+    if (!i || keyOf(column) !== keyOf(columns[i - 1])) runs.push([]);
+    runs[runs.length - 1].push(column);
   });
-  return runs.filter((run) => run.length > 1).map((run) => {
-    const first = [run[0][0], base], last = [run[run.length - 1][0], base];
-    return {area: pathOf([first, ...run, last], true), points: run};
+  return runs;
+}
+
+// By how much runs lie on each other, so that no seam shows between them [px].
+const OVERLAP = 0.4;
+
+// What fills each stretch of a run, and the lines between those that differ, half a column beyond its ends.
+function drawRun(frame, run, beside, x, y, beyond) {
+  const [first, last] = [run[0], run[run.length - 1]];
+  const ends = [Math.sqrt(first.x*(beside[0] ?? first).x), Math.sqrt(last.x*(beside[1] ?? last).x)];
+  const line = (j, end) => [
+    [x.to(ends[0]) - OVERLAP, y.to(first.stretches[j][end])],
+    ...run.map((one) => [x.to(one.x), y.to(one.stretches[j][end])]),
+    [x.to(ends[1]) + OVERLAP, y.to(last.stretches[j][end])],
+  ];
+  run[0].stretches.forEach(({part, known}, j) => {
+    const area = pathOf([...line(j, "to"), ...line(j, "from").reverse()], true);
+    frame.append(svg("path", part ? {d: area, class: `fill-${part}`} : {d: area, fill: beyond}));
+    const above = run[0].stretches[j + 1];
+    if (!above) return;
+    frame.append(svg("path", {d: pathOf(line(j, "to")), class: above.part !== part ? "edge" : "reach"}));
+    if (above.part !== part && above.known !== known) frame.append(svg("path", {d: pathOf(line(j, "to")), class: "reach"}));
   });
 }
 
@@ -84,52 +97,30 @@ function roomFor(words, spans, taken) {
   return best.x === undefined ? null : best;
 }
 
-// A place of y inside the picture.
-const insideOf = (y) => (value) => clamped(y.to(value), y.end, y.start);
-
-// What the law does not cover: above the highest and below the lowest y of each x.
-function drawUncovered(frame, covers, x, y, fill) {
-  const inside = insideOf(y), known = (end, other) => Number.isNaN(end) ? other : inside(end);
-  const line = (of) => covers.map((one) => [x.to(one[0]), of(one)]);
-  const sides = [
-    [line(([, , high]) => known(high, y.start)), y.end], [line(([, low]) => known(low, y.start)), y.start],
-  ];
-  for (const [points, base] of sides) {
-    if (points.every(([, at]) => at === base)) continue;
-    const ends = [points[0], points[points.length - 1]].map(([at]) => [at, base]);
-    frame.append(svg("path", {d: pathOf([ends[0], ...points, ends[1]], true), fill}));
-  }
-}
-
-// The spans that a part fills, and those that none does.
-function spansOf({edges, covers}, x, y) {
-  const inside = insideOf(y);
-  const [tops, bottoms] = [2, 1].map((n) => covers.map((one) => Number.isNaN(one[n]) ? y.start : inside(one[n])));
-  const spans = {none: []};
-  for (const part of DATA.parts) {
-    spans[part] = edges[part].map(([at, edge], i) => part === "wear"
-      ? [x.to(at), tops[i], inside(edge)] : [x.to(at), Math.max(tops[i], inside(edge)), bottoms[i]])
-      .filter((_, i) => !Number.isNaN(edges[part][i][1]));
-  }
-  edges.wear.forEach(([at, edge], i) => {
-    const others = DATA.parts.filter((part) => part !== "wear").map((part) => edges[part][i][1]);
-    const below = others.filter((value) => !Number.isNaN(value)).map(inside);
-    spans.none.push([x.to(at), Number.isNaN(edge) ? tops[i] : inside(edge), Math.min(bottoms[i], ...below)]);
+// The longest of the stretches that fit, in each column that has one, in places of the picture.
+function spansOf(columns, fits, x, y) {
+  return columns.flatMap((column) => {
+    const spans = [];
+    column.stretches.forEach((one, j) => {
+      if (!fits(one)) return;
+      const joined = j && fits(column.stretches[j - 1]) ? spans.pop() : null;
+      spans.push([x.to(column.x), y.to(one.to), joined ? joined[2] : y.to(one.from)]);
+    });
+    return spans.sort((a, b) => (b[2] - b[1]) - (a[2] - a[1])).slice(0, 1);
   });
-  return spans;
 }
 
 // The names of the regions, each where it has most room.
-function regionNames(regions, x, y, taken) {
-  const spans = spansOf(regions, x, y), names = [];
-  for (const part of [...DATA.parts, "none"]) {
-    const words = part === "none" ? "no part dominates" : part;
-    const place = roomFor(words, spans[part], taken);
+function regionNames({columns}, x, y, taken) {
+  const names = [], unknown = columns.some((one) => one.stretches.some(({part, known}) => part && !known));
+  const kinds = DATA.parts.map((part) => [part, (one) => one.part === part]);
+  kinds.push(["no part dominates", (one) => one.part === DATA.transition, "small"]);
+  if (unknown) kinds.push(["error known", (one) => one.known, "small"]);
+  for (const [words, fits, kind = ""] of kinds) {
+    const place = roomFor(words, spansOf(columns, fits, x, y), taken);
     if (!place) continue;
     taken.push(place);
-    names.push(note(words, {
-      x: place.x, y: place.y + 4, "text-anchor": "middle", class: part === "none" ? "small" : "",
-    }));
+    names.push(note(words, {x: place.x, y: place.y + 4, "text-anchor": "middle", class: kind}));
   }
   return names;
 }
@@ -142,15 +133,11 @@ function drawMap(plot, state, size, change) {
   frame.append(svg("rect", {...plane, class: "paper"}));
   const names = [];
   if (holdsAlpha(state.alpha) && state.xi >= 0 && state.xi < Infinity) {
-    const regions = regionsOf(state), {edges} = regions;
-    for (const part of DATA.parts) {
-      const paths = regionPaths(edges[part], part, x, y);
-      for (const {area, points} of paths) {
-        frame.append(svg("path", {d: area, class: `fill-${part}`}));
-        frame.append(svg("path", {d: pathOf(points), class: "edge"}));
-      }
-    }
-    drawUncovered(frame, regions.covers, x, y, plot.beyond);
+    const regions = regionsOf(state), runs = runsOfColumns(regions.columns);
+    runs.forEach((run, i) => {
+      const beside = [runs[i - 1]?.at(-1), runs[i + 1]?.[0]];
+      drawRun(frame, run, beside, x, y, plot.beyond);
+    });
     const end = x.to(Math.max(MAP.x[0], 1/highestG(state.alpha)));
     if (end > x.start + 1) {
       frame.append(svg("rect", {...plane, width: end - x.start, fill: plot.beyond}));

@@ -62,22 +62,34 @@ function boundOf(name, g, alpha) {
   return errors[intervalOf(edges.g, at)][intervalOf(edges.alpha, alpha)] ?? Infinity;
 }
 
+const latest = {};
+
+// A function of the table and its bound; the last one of each is kept, as loads vary more often than the contact.
+function contactOf(name, g, alpha) {
+  const kept = latest[name];
+  if (kept?.g === g && kept.alpha === alpha) return kept;
+  return latest[name] = {g, alpha, value: TABLE[name](g, alpha), bound: boundOf(name, g, alpha)};
+}
+
 const gOf = (s) => s.Gamma_o/(s.mu*s.R_w);
 
 const rubs = (s) => s.xi !== 0 || s.tau_w !== 0;
 
-// The force and its parts [N/m], and by how much it may be off; null outside the table and the law.
+// The force and its parts [N/m], and by how much it may be off; null outside the table and the law. That of
+// "auto" has the law's name as well.
 function forceOf(law, s) {
+  if (law.forceOf) return law.forceOf(s);
   const g = gOf(s), {alpha, Gamma_o: cleavage} = s;
   if (!rubs(s)) return {g, cleavage, friction: 0, wear: 0, total: cleavage, error: 0};
   if (!holds(g, alpha) || !law.covers(g, s)) return null;
   const scale = 2*law.factor(g, s);
-  const wear = s.tau_w ? scale*(s.tau_w*s.R_w)*TABLE[law.arc](g, alpha) : 0;
-  const friction = s.xi ? scale*(s.R_w*(s.xi*s.mu))*TABLE[law.load](g, alpha) : 0;
+  const arc = contactOf(law.arc, g, alpha), load = contactOf(law.load, g, alpha);
+  const wear = s.tau_w ? scale*(s.tau_w*s.R_w)*arc.value : 0;
+  const friction = s.xi ? scale*(s.R_w*(s.xi*s.mu))*load.value : 0;
   const total = cleavage + friction + wear;
   const own = law.ownError(g, s);
-  const off = (part, name) => part === 0 ? 0 : part*(Math.expm1(boundOf(name, g, alpha)) + own);
-  const error = (off(friction, law.load) + off(wear, law.arc))/total;
+  const off = (part, {bound}) => part === 0 ? 0 : part*(Math.expm1(bound) + own);
+  const error = (off(friction, load) + off(wear, arc))/total;
   return {g, cleavage, friction, wear, total, error: Number.isFinite(error) ? error : NaN};
 }
 
@@ -102,10 +114,10 @@ function spaced(low, high, perDecade) {
   return values;
 }
 
-// Where a condition changes between two positive numbers, to the last digits.
-function changeBetween(condition, low, high) {
+// Where a condition changes between two positive numbers, to the last digits if there are as many steps.
+function changeBetween(condition, low, high, steps = 200) {
   const first = condition(low);
-  for (let i = 0; i < 200; ++i) {
+  for (let i = 0; i < steps; ++i) {
     const middle = Math.sqrt(low*high);
     if (middle <= low || middle >= high) break;
     if (condition(middle) === first) low = middle;
@@ -152,6 +164,7 @@ function transitionBalance(law, s, g) {
 // where it is at a g beyond the table, "beyond" where the law does not cover it.
 function transitionOf(law, s) {
   if (!rubs(s)) return {why: "never"};
+  if (law.transition) return law.transition(s);
   const ends = [DATA.domain.g[0], highestG(s.alpha)];
   const grid = spaced(...ends, 24);
   const dominated = (g) => transitionBalance(law, s, g) <= 0;

@@ -160,6 +160,12 @@ function saysError(law, force) {
     return `How far the number may be off is unknown: ${law.unknown}.`;
   }
   if (force.error === 0) return "The number is exact: without wear and friction the force is Γ_o.";
+  if (force.law) {
+    const why = force.error <= DATA.rtol ? `the cheapest whose error is known to be ${percent(DATA.rtol)} or less`
+      : "the best of those whose error is known";
+    return `The law is “${force.law}” here, ${why}: the number may be off by up to ${percentUp(force.error)} `
+      + "beside finite elements on which the wire rubs.";
+  }
   const beside = law.beside || "of this law; how far the law itself is off is another matter";
   return `The number may be off by up to ${percentUp(force.error)} beside finite elements ${beside}.`;
 }
