@@ -17,7 +17,7 @@ from surrogate.basics.checks import FloatOrArray
 from surrogate.basics.elementwise import exp, quotient, ratio
 from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto import AutomaticTerms
-from surrogate.choosing.candidates import candidates
+from surrogate.choosing.candidates import OUTSIDE, candidates
 from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
@@ -82,6 +82,7 @@ class LawfulTerms:
         self.values, self.of_dissipation, self.named = values, of_dissipation, named
         self.rtol, self.promised = DEFAULT_RTOL if rtol is None else rtol, rtol is not None
         self.kappa = amplification_of_models(named)
+        self.names_of_models = candidates().names if named is None else [named.name]
         self.surrounded = True
         self._worst: tuple[float, float, float] | None = None
 
@@ -108,15 +109,14 @@ class LawfulTerms:
 
     def _of_one(self, scene: tuple[float, ...], place: Place) -> Terms:
         """Return the terms of one scene to whose load solutions reach."""
-        first = self._slip(scene, _FIT_PART * self.rtol, place)
+        first = self._slip(scene, place, self.named)
         if first[5] + first[6] <= self.rtol:
             return first
         if first[5] != first[5]:
             return self._projected(scene)
         best = self._better(scene, first, place)
-        budget = self._budget(scene, first, place)
-        if best[5] + best[6] > self.rtol and 0.0 < budget < first[5]:
-            finer = self._better(scene, self._slip(scene, budget, place), place)
+        if best[5] + best[6] > self.rtol and self.named is None:
+            finer = self._better(scene, self._slip(scene, place, _table()), place)
             return finer if finer[5] + finer[6] < best[5] + best[6] else best
         return best
 
@@ -138,7 +138,7 @@ class LawfulTerms:
     def _judged(self, scene: tuple[Any, ...], place: Place) -> Terms:
         """Return the terms of scenes to whose loads solutions reach."""
         shape = np.broadcast_shapes(*map(np.shape, scene))
-        first = self._slip(scene, _FIT_PART * self.rtol, place)
+        first = self._slip(scene, place, self.named)
         fits = np.broadcast_to(np.equal(first[5], first[5]), shape)
         met = np.broadcast_to(np.less_equal(first[5] + first[6], self.rtol), shape)
         if met.all():
@@ -151,14 +151,13 @@ class LawfulTerms:
         return columns
 
     def _bettered(self, scene: Any, columns: Terms, mask: Any, place: Place) -> Terms:
-        """Return terms of the best law, and where none will do by a better model of slip."""
+        """Return terms of the best law, and where none will do by the best model of slip."""
         first, here = tuple(column[mask] for column in columns), place.at(mask)
         best = self._better(scene, first, here)
-        budget = self._budget(scene, first, here)
-        short = (best[5] + best[6] > self.rtol) & (budget > 0.0) & (budget < first[5])
-        if short.any():
+        short = best[5] + best[6] > self.rtol
+        if self.named is None and short.any():
             some, there = _taken(scene, short), here.at(short)
-            finer = self._better(some, self._slip(some, budget[short], there), there)
+            finer = self._better(some, self._slip(some, there, _table()), there)
             before = tuple(column[short] for column in best)
             less = finer[5] + finer[6] < before[5] + before[6]
             _put(
@@ -168,10 +167,10 @@ class LawfulTerms:
             )
         return best
 
-    def _slip(self, scene: tuple[Any, ...], rtol: Any, place: Place) -> Terms:
-        """Return the terms of the slip law, and the bound of what it lacks."""
+    def _slip(self, scene: tuple[Any, ...], place: Place, model: FittedModel | None) -> Terms:
+        """Return the terms of the slip law, by a model or the cheapest, and what the law lacks."""
         assert self.kappa is not None
-        friction, worn, holds, number, fit = self._terms(scene, rtol, SLIP)
+        friction, worn, holds, number, fit = self._terms(scene, SLIP, model)
         drag, rest = friction + worn, self._rest(scene)
         with np.errstate(all="ignore"):
             swing = np.expm1(self.kappa.most_at(place))  # kappa as small, and as large, as may be
@@ -181,8 +180,8 @@ class LawfulTerms:
             )
         unloaded = np.equal(drag, 0.0)
         error = np.where(unloaded, 0.0, error)
-        first = unloaded if self.named else np.equal(number, 0)
-        law = np.where(first, 0, 1)  # Eq. (13) is of the projected law
+        closed = unloaded if model else np.equal(number, 0)  # Eq. (13) is of the projected law
+        law = np.where(closed, 0, 1)
         if np.ndim(error) == 0:
             return friction, worn, holds, number, int(law), fit, float(error)
         return friction, worn, holds, number, law, fit, error
@@ -198,11 +197,6 @@ class LawfulTerms:
             return terms if better else first
         return tuple(np.where(better, a, b) for a, b in zip(terms, first, strict=True))
 
-    def _budget(self, scene: tuple[Any, ...], first: Terms, place: Place) -> Any:
-        """Return the error of the model with which one of the laws would do."""
-        _, own, larger = self._amplified(scene, first, place)
-        return np.maximum(self.rtol - first[6], (self.rtol - own) / larger)
-
     def _amplified(
         self, scene: tuple[Any, ...], first: Terms, place: Place
     ) -> tuple[Any, Any, Any]:
@@ -217,21 +211,23 @@ class LawfulTerms:
 
     def _projected(self, scene: tuple[Any, ...]) -> Terms:
         """Return the terms of the projected law, whose error nobody knows where anything rubs."""
-        friction, worn, holds, number, fit = self._terms(scene, None, PROJECTED)
+        friction, worn, holds, number, fit = self._terms(scene, PROJECTED, self.named)
         unknown = np.where(np.equal(friction + worn, 0.0), 0.0, np.nan)
         return friction, worn, holds, number, 0, fit, unknown if unknown.ndim else float(unknown)
 
-    def _terms(self, scene: tuple[Any, ...], rtol: Any, law: str) -> Terms:
+    def _terms(self, scene: tuple[Any, ...], law: str, model: FittedModel | None) -> Terms:
         """Return friction, wear, where in the domain, number of the model and bound under a law."""
-        if self.named is None:
+        if model is None:
+            rtol = _FIT_PART * self.rtol if law == SLIP else None
             terms = AutomaticTerms(scene, rtol, self.of_dissipation, candidates(law=law))
             return terms(*scene)
-        model = self.named.under(law)
+        model = model.under(law)
         friction, worn, holds = model.evaluated(*scene)
         drag, parts = friction + worn, (self._rest(scene), friction, worn)
         with np.errstate(all="ignore"):
             fit = np.where(np.equal(drag, 0.0), 0.0, force_bound(model, scene, parts))
-        return friction, worn, holds, 0, fit if fit.ndim else float(fit)
+        number = self.names_of_models.index(model.name)
+        return friction, worn, holds, number, fit if fit.ndim else float(fit)
 
     def _rest(self, scene: tuple[Any, ...]) -> Any:
         return 0.0 if self.of_dissipation else scene[1]
@@ -270,12 +266,18 @@ class LawfulTerms:
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
-        names = candidates().names if self.named is None else [self.named.name]
-        return _named(names, number)
+        return _named(self.names_of_models, number)
 
     def laws(self, number: Any) -> Any:
         """Return the names of the laws of these numbers."""
         return _named(_CODES, number)
+
+
+def _table() -> FittedModel:
+    """Return the model with the smallest bounds: the gp's are no smaller."""
+    table = shipped().models[OUTSIDE]
+    assert isinstance(table, FittedModel)
+    return table
 
 
 def _named(names: Any, number: Any) -> Any:
