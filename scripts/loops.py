@@ -57,7 +57,8 @@ def ways(others: Sequence[Contender]) -> list[Way]:
     for model, words in (("eq13", "eq13"), ("table", "table"), ("auto", "auto")):
 
         def public(radius: Any, model: str = model) -> Any:
-            return cutting_force(Scene(mu, gamma, radius, xi, wear, ALPHA), model).total
+            scene = Scene(mu, gamma, radius, xi, wear, ALPHA)
+            return cutting_force(scene, model, law="projected").total  # as `prepare` has it
 
         found.append(Way(f"cutting_force, {words}", public, public))
     if find_spec("numba"):

@@ -18,6 +18,7 @@ from surrogate.errors import (
     DomainError,
     ImplausibleInputWarning,
     InputError,
+    UnknownErrorWarning,
     UnknownModelError,
     WirecutError,
 )
@@ -94,6 +95,7 @@ __all__ = [
     "Scene",
     "SteadyForce",
     "UncertainForce",
+    "UnknownErrorWarning",
     "UnknownModelError",
     "WireDesign",
     "WirecutError",

@@ -8,6 +8,7 @@ __all__ = [
     "ImplausibleInputWarning",
     "InputError",
     "MissingExtraError",
+    "UnknownErrorWarning",
     "UnknownModelError",
     "WirecutError",
 ]
@@ -39,3 +40,7 @@ class MissingExtraError(WirecutError, ImportError):
 
 class ImplausibleInputWarning(UserWarning):
     """A number that is hardly that of cutting a soft solid with a wire: check its unit."""
+
+
+class UnknownErrorWarning(UserWarning):
+    """A number by the projected law, as nobody knows how far any law is off there."""

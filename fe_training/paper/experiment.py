@@ -128,7 +128,9 @@ class Experiment:
         for mode, (style, colour) in zip(self.modes, _LINES, strict=False):
             inside = mode.toughness / (self.ours.shear_modulus * radius) <= upper
             force = np.full(radius.size, np.nan)
-            force[inside] = cutting_force(self.scene(mode, radius[inside]), self.model).total
+            force[inside] = cutting_force(
+                self.scene(mode, radius[inside]), self.model, law="projected"
+            ).total
             label = f"finite elements, {_short(mode.toughness)}"
             ax.plot(1e3 * radius, force, ls=style, color=colour, lw=1.2, label=label)
             columns[f"{self.model}_at_{mode.toughness:.3g}_J_per_m2", "N/m"] = force
@@ -150,7 +152,7 @@ class Experiment:
         """
         ranges = ((1e-2, 1e2), (1e-2, 1e2))
         fixed = {"xi": 0.0, "alpha": self.alpha}
-        made = regime_map("R_w/l_e", "R_w/l_w", ranges, fixed, self.model)
+        made = regime_map("R_w/l_e", "R_w/l_w", ranges, fixed, self.model, law="projected")
         points = [
             MapPoints(self.scene(mode, self.cuts.wire_radius), f"PAAm, {_toughness(mode)}")
             for mode in self.modes[:_MARKERS]
@@ -191,7 +193,7 @@ class Experiment:
         lines = [[*law, _range(g), _off(self.paper.residuals)]]
         for mode in self.modes:
             scene = self.scene(mode, self.cuts.wire_radius)
-            force = cutting_force(scene, self.model).total
+            force = cutting_force(scene, self.model, law="projected").total
             lines.append([f"model `{self.model}`", *_row(mode, scene, force - self.cuts.force)])
         head = ["law", r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", "$g$ of the wires"]
         return markdown_table([*head, "largest difference [N/m]"], lines)

@@ -58,8 +58,9 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
     if not points[0].ndim:
         points = float(g), float(alpha)
     known = candidates(law=SLIP if model.law == COUPLED else model.law)
+    holds = known.limits.all_hold(*points)  # the cells, in g/g_touch, may go beyond
     found = (known.bounds.at(model.name, name, *points) for name in known.terms)
-    arc, load = (np.asarray(np.expm1(each)) for each in found)
+    arc, load = (np.asarray(np.where(holds, np.expm1(each), np.inf)) for each in found)
     return arc, load
 
 

@@ -1,9 +1,10 @@
 """Friction and wear by the cheapest law and model whose error beside coupled solutions will do.
 
-First the terms of the slip law by the cheapest model. Where the measured bound of what the load
-does to its own force is small enough they stay; elsewhere they are multiplied by kappa. Where
-nobody knows that bound, outside the coupled solutions or where the size of the tip decides, the
-terms are those of the projected law, whose tau_w and xi are effective numbers there.
+Where solutions with friction and wear reach to a point: first the terms of the slip law by the
+cheapest model. Where the measured bound of what the load does to its own force is small enough
+they stay; elsewhere they are multiplied by kappa. Where none reaches, or where the size of the tip
+decides, nobody knows that bound: the terms are those of the projected law, whose tau_w and xi are
+effective numbers there.
 """
 
 from __future__ import annotations
@@ -16,18 +17,34 @@ from surrogate.basics.checks import FloatOrArray
 from surrogate.basics.elementwise import exp, quotient, ratio
 from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto import AutomaticTerms
-from surrogate.choosing.candidates import candidates
+from surrogate.choosing.candidates import OUTSIDE, candidates
 from surrogate.choosing.choice import rounded_up
+from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
-from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP
-from surrogate.coupling.shipped import amplification
+from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
+from surrogate.contact.shipped import shipped
+from surrogate.coupling.amplification import Amplification, Place
+from surrogate.coupling.shipped import amplification_if_any
 from surrogate.errors import AccuracyError
 
-__all__ = ["LawfulTerms"]
+__all__ = ["LawfulTerms", "amplification_of_models"]
 
 _CODES = (PROJECTED, SLIP, COUPLED)
 _FIT_PART = 0.6
 """Part of rtol that the model of the slip law may take; the law itself has the rest."""
+
+Terms = tuple[Any, ...]
+
+
+def amplification_of_models(named: FittedModel | None = None) -> Amplification | None:
+    """Return kappa of the models in use; None where they, or the named one, lack what it needs."""
+    fitted = shipped()
+    functions = fitted.models.values() if named is None else (named,)
+    if fitted.slip_bounds is None or any(
+        not {*TERMS_OF_LAW[SLIP]} <= {*model.functions} for model in functions
+    ):
+        return None
+    return amplification_if_any()
 
 
 class LawfulTerms:
@@ -39,9 +56,11 @@ class LawfulTerms:
         The six quantities of a scene.
     rtol : float or None
         Relative error of the force, beside coupled finite elements, that will do [-]; None for 0.02
-        where it can be had.
+        where it can be had, and else the best there is.
     of_dissipation : bool
         Whether `rtol` is relative to friction and wear alone.
+    named : FittedModel, optional
+        The model, where it is not to be chosen.
 
     Examples
     --------
@@ -54,110 +73,172 @@ class LawfulTerms:
     dtypes = (float, float, bool, np.uint8, np.uint8, float, float)
 
     def __init__(
-        self, values: tuple[FloatOrArray, ...], rtol: float | None, of_dissipation: bool = False
+        self,
+        values: tuple[FloatOrArray, ...],
+        rtol: float | None,
+        of_dissipation: bool = False,
+        named: FittedModel | None = None,
     ) -> None:
-        self.values, self.of_dissipation = values, of_dissipation
+        self.values, self.of_dissipation, self.named = values, of_dissipation, named
         self.rtol, self.promised = DEFAULT_RTOL if rtol is None else rtol, rtol is not None
-        self.known, self.kappa = candidates(law=SLIP), amplification()
+        self.kappa = amplification_of_models(named)
+        self.names_of_models = candidates().names if named is None else [named.name]
         self.surrounded = True
         self._worst: tuple[float, float, float] | None = None
 
-    def __call__(self, *scene: Any) -> tuple[Any, ...]:
-        mu, gamma, radius, xi, wear, alpha = scene
-        one = all(type(value) is float for value in scene)
-        slip = AutomaticTerms(scene, _FIT_PART * self.rtol, self.of_dissipation, self.known)
-        friction, worn, holds, number, fit = slip(*scene)
-        self.surrounded = self.surrounded and bool(np.all(holds))
+    def __call__(self, *scene: Any) -> Terms:
+        mu, gamma, radius, _, wear, alpha = scene
         g, relative = quotient(gamma, mu, radius), ratio(wear, mu)
-        rest = 0.0 if self.of_dissipation else gamma
-        law, of_law = self._first_order(number, friction + worn, rest, (g, alpha, xi, relative))
-        together = fit + of_law
-        if one:
-            if together <= self.rtol:
-                return friction, worn, bool(holds), number, law, fit, of_law
-            if together == together:
-                terms = self._amplified(scene, (friction, worn), (g, alpha, xi, relative), fit)
-                found = (*terms[:2], bool(holds), number, 2, terms[2], 0.0)
-            else:
-                found = self._projected(scene)
+        found = self._of_place(scene, g, relative)
+        if found[2] is not True:
+            self.surrounded = self.surrounded and bool(np.all(found[2]))
+        if self.promised and self._worst is None:
             self._look(found[5] + found[6], g, alpha)
-            return found
-        return self._by_masks(
-            scene, (friction, worn, holds, number, law, fit, of_law), (g, alpha, xi, relative)
-        )
+        return found
 
-    def _first_order(
-        self, number: Any, drag: Any, rest: Any, load: tuple[Any, ...]
-    ) -> tuple[Any, Any]:
-        """Return the law of the first order, and the bound of what it lacks."""
-        most = self.kappa.most(*load)
+    def _of_place(self, scene: tuple[Any, ...], g: Any, relative: Any) -> Terms:
+        if self.kappa is None:
+            return self._projected(scene)
+        place = self.kappa.place(g, scene[5], scene[3], relative)
+        if np.ndim(place.known) == 0:
+            if not place.known:
+                return self._projected(scene)
+            if all(type(value) is float for value in scene):
+                return self._of_one(scene, place)
+        return self._of_many(scene, place)
+
+    def _of_one(self, scene: tuple[float, ...], place: Place) -> Terms:
+        """Return the terms of one scene to whose load solutions reach."""
+        first = self._slip(scene, place, self.named)
+        if first[5] + first[6] <= self.rtol:
+            return first
+        if first[5] != first[5]:
+            return self._projected(scene)
+        best = self._better(scene, first, place)
+        if best[5] + best[6] > self.rtol and self.named is None:
+            finer = self._better(scene, self._slip(scene, place, _table()), place)
+            return finer if finer[5] + finer[6] < best[5] + best[6] else best
+        return best
+
+    def _of_many(self, scene: tuple[Any, ...], place: Place) -> Terms:
+        """Return the terms of scenes, to the loads of some of which solutions reach."""
+        shape = np.broadcast_shapes(*map(np.shape, scene))
+        known = np.broadcast_to(place.known, shape)
+        everywhere = bool(known.all())
+        some = scene if everywhere else _taken(scene, known)
+        here = place if everywhere else place.at(known)
+        terms = self._judged(some, here)
+        if everywhere:
+            return terms
+        columns = tuple(np.empty(shape, kind) for kind in self.dtypes)
+        for mask, part in ((known, terms), (~known, self._projected(_taken(scene, ~known)))):
+            _put(columns, mask, part)
+        return columns
+
+    def _judged(self, scene: tuple[Any, ...], place: Place) -> Terms:
+        """Return the terms of scenes to whose loads solutions reach."""
+        shape = np.broadcast_shapes(*map(np.shape, scene))
+        first = self._slip(scene, place, self.named)
+        fits = np.broadcast_to(np.equal(first[5], first[5]), shape)
+        met = np.broadcast_to(np.less_equal(first[5] + first[6], self.rtol), shape)
+        if met.all():
+            return first
+        columns = tuple(np.array(np.broadcast_to(each, shape)) for each in first)
+        if (short := ~met & fits).any():
+            _put(columns, short, self._bettered(_taken(scene, short), columns, short, place))
+        if not fits.all():
+            _put(columns, ~fits, self._projected(_taken(scene, ~fits)))
+        return columns
+
+    def _bettered(self, scene: Any, columns: Terms, mask: Any, place: Place) -> Terms:
+        """Return terms of the best law, and where none will do by the best model of slip."""
+        first, here = tuple(column[mask] for column in columns), place.at(mask)
+        best = self._better(scene, first, here)
+        short = best[5] + best[6] > self.rtol
+        if self.named is None and short.any():
+            some, there = _taken(scene, short), here.at(short)
+            finer = self._better(some, self._slip(some, there, _table()), there)
+            before = tuple(column[short] for column in best)
+            less = finer[5] + finer[6] < before[5] + before[6]
+            _put(
+                best,
+                short,
+                tuple(np.where(less, a, b) for a, b in zip(finer, before, strict=True)),
+            )
+        return best
+
+    def _slip(self, scene: tuple[Any, ...], place: Place, model: FittedModel | None) -> Terms:
+        """Return the terms of the slip law, by a model or the cheapest, and what the law lacks."""
+        assert self.kappa is not None
+        friction, worn, holds, number, fit = self._terms(scene, SLIP, model)
+        drag, rest = friction + worn, self._rest(scene)
         with np.errstate(all="ignore"):
-            swing = np.expm1(most)  # for kappa as small, and as large, as it may be
+            swing = np.expm1(self.kappa.most_at(place))  # kappa as small, and as large, as may be
             error = np.maximum(
                 drag * swing / (rest * (1.0 + swing) + drag),
                 drag * swing / (rest + drag * (1.0 + swing)),
             )
-            error = np.where(np.equal(drag, 0.0), 0.0, error)
-        law = np.where(np.equal(number, 0), 0, 1)
-        return (int(law), float(error)) if np.ndim(error) == 0 else (law, error)
+        unloaded = np.equal(drag, 0.0)
+        error = np.where(unloaded, 0.0, error)
+        closed = unloaded if model else np.equal(number, 0)  # Eq. (13) is of the projected law
+        law = np.where(closed, 0, 1)
+        if np.ndim(error) == 0:
+            return friction, worn, holds, number, int(law), fit, float(error)
+        return friction, worn, holds, number, law, fit, error
+
+    def _better(self, scene: tuple[Any, ...], first: Terms, place: Place) -> Terms:
+        """Return the terms times kappa where their error then will do or is the smaller one."""
+        friction, worn, holds, number, _, fit, of_law = first
+        kappa, own, larger = self._amplified(scene, first, place)
+        error = fit * larger + own
+        better = (error <= self.rtol) | ~(fit + of_law <= error)
+        terms = friction * kappa, worn * kappa, holds, number, 2, error, 0.0
+        if np.ndim(better) == 0:
+            return terms if better else first
+        return tuple(np.where(better, a, b) for a, b in zip(terms, first, strict=True))
 
     def _amplified(
-        self, scene: tuple[Any, ...], terms: tuple[Any, Any], load: tuple[Any, ...], fit: Any
+        self, scene: tuple[Any, ...], first: Terms, place: Place
     ) -> tuple[Any, Any, Any]:
-        """Return the terms times kappa, and the bound of their error."""
-        kappa = exp(self.kappa.log_factor(*load))
-        friction, worn = terms[0] * kappa, terms[1] * kappa
-        rest = 0.0 if self.of_dissipation else scene[1]
-        drag = friction + worn
-        own = drag / (rest + drag) * np.expm1(self.kappa.error(*load))
+        """Return kappa, the bound of its error in the force, and what it does to that of slip."""
+        assert self.kappa is not None
+        kappa = exp(self.kappa.log_at(place))
+        drag = (first[0] + first[1]) * kappa
+        own = drag / (self._rest(scene) + drag) * np.expm1(self.kappa.error_at(place))
         # the slip terms may be a larger share of the amplified force than they were of their own
         larger = np.maximum(1.0, kappa)
-        error = fit * larger + own
-        return friction, worn, float(error) if type(kappa) is float else error
+        return (kappa, float(own), float(larger)) if type(kappa) is float else (kappa, own, larger)
 
-    def _projected(self, scene: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the terms of the projected law, whose error nobody knows."""
-        terms = AutomaticTerms(scene, None, self.of_dissipation)
-        friction, worn, holds, number, fit = terms(*scene)
-        number = self._renumbered(number)
-        one = all(type(value) is float for value in scene)
-        unknown = np.nan if one else np.full(np.shape(friction), np.nan)
-        return friction, worn, holds, number, 0, fit, unknown
+    def _projected(self, scene: tuple[Any, ...]) -> Terms:
+        """Return the terms of the projected law, whose error nobody knows where anything rubs."""
+        friction, worn, holds, number, fit = self._terms(scene, PROJECTED, self.named)
+        unknown = np.where(np.equal(friction + worn, 0.0), 0.0, np.nan)
+        return friction, worn, holds, number, 0, fit, unknown if unknown.ndim else float(unknown)
 
-    def _renumbered(self, number: Any) -> Any:
-        """Return the numbers among the models of slip of models of the projected law."""
-        places = [self.known.names.index(name) for name in candidates().names]
-        return places[number] if np.ndim(number) == 0 else np.array(places)[number]
+    def _terms(self, scene: tuple[Any, ...], law: str, model: FittedModel | None) -> Terms:
+        """Return friction, wear, where in the domain, number of the model and bound under a law."""
+        if model is None:
+            rtol = _FIT_PART * self.rtol if law == SLIP else None
+            terms = AutomaticTerms(scene, rtol, self.of_dissipation, candidates(law=law))
+            return terms(*scene)
+        model = model.under(law)
+        friction, worn, holds = model.evaluated(*scene)
+        drag, parts = friction + worn, (self._rest(scene), friction, worn)
+        with np.errstate(all="ignore"):
+            fit = np.where(np.equal(drag, 0.0), 0.0, force_bound(model, scene, parts))
+        number = self.names_of_models.index(model.name)
+        return friction, worn, holds, number, fit if fit.ndim else float(fit)
 
-    def _by_masks(
-        self, scene: tuple[Any, ...], found: tuple[Any, ...], load: tuple[Any, ...]
-    ) -> tuple[Any, ...]:
-        shape = np.broadcast_shapes(*map(np.shape, scene))
-        columns = [np.array(np.broadcast_to(each, shape)) for each in found]
-        friction, worn, _, _, law, fit, of_law = columns
-        together = fit + of_law
-        more, unknown = together > self.rtol, np.isnan(together)
-        if more.any():
-            some = tuple(_taken(value, more) for value in scene)
-            part = tuple(_taken(value, more) for value in load)
-            terms = self._amplified(some, (friction[more], worn[more]), part, fit[more])
-            friction[more], worn[more], fit[more] = terms
-            law[more], of_law[more] = 2, 0.0
-        if unknown.any():
-            some = tuple(_taken(value, unknown) for value in scene)
-            for column, values in zip(columns, self._projected(some), strict=True):
-                column[unknown] = values
-        self._look(fit + of_law, load[0], load[1])
-        return tuple(columns)
+    def _rest(self, scene: tuple[Any, ...]) -> Any:
+        return 0.0 if self.of_dissipation else scene[1]
 
     def _look(self, error: Any, g: Any, alpha: Any) -> None:
         """Keep in mind a point whose error is more than asked for."""
-        if self._worst is None and self.promised:
-            short = np.atleast_1d(~np.less_equal(error, self.rtol))
-            if short.any():
-                first = int(np.argmax(short))
-                at = (np.broadcast_to(each, short.shape).flat[first] for each in (error, g, alpha))
-                self._worst = tuple(map(float, at))  # type: ignore[assignment]
+        short = np.atleast_1d(~np.less_equal(error, self.rtol))
+        if short.any():
+            first = int(np.argmax(short))
+            at = (np.broadcast_to(each, short.shape).flat[first] for each in (error, g, alpha))
+            self._worst = tuple(map(float, at))  # type: ignore[assignment]
 
     def finish(self, extrapolate: bool) -> None:
         """Raise what is to be refused, after all points are done.
@@ -170,7 +251,7 @@ class LawfulTerms:
             If rtol was given and is not met.
         """
         if not (self.surrounded or extrapolate):
-            require_inside(self.known.models[1], self.values)
+            require_inside(self.named or candidates().models[1], self.values)
         if self._worst is None:
             return
         error, g, alpha = self._worst
@@ -179,21 +260,35 @@ class LawfulTerms:
         raise AccuracyError(
             f"rtol must be met beside finite elements on which the wire rubs, but rtol = "
             f"{self.rtol:g} is not at g = {g:.4g}, alpha = {alpha:.4g}, where the error of the "
-            f"best law {known}; give {remedy}rtol=None for the best there is."
+            f"best law {known}; give {remedy}law='projected' for an rtol beside finite elements of "
+            "that law, or leave rtol out for the best there is."
         )
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
-        return _named(self.known.names, number)
+        return _named(self.names_of_models, number)
 
     def laws(self, number: Any) -> Any:
         """Return the names of the laws of these numbers."""
         return _named(_CODES, number)
 
 
+def _table() -> FittedModel:
+    """Return the model with the smallest bounds: the gp's are no smaller."""
+    table = shipped().models[OUTSIDE]
+    assert isinstance(table, FittedModel)
+    return table
+
+
 def _named(names: Any, number: Any) -> Any:
     return names[number] if type(number) is int else np.array(names)[number]
 
 
-def _taken(value: Any, mask: Any) -> Any:
-    return value if type(value) is float else np.broadcast_to(value, mask.shape)[mask]
+def _taken(scene: tuple[Any, ...], mask: Any) -> tuple[Any, ...]:
+    """Return some of the scenes."""
+    return tuple(v if type(v) is float else np.broadcast_to(v, mask.shape)[mask] for v in scene)
+
+
+def _put(columns: Terms, mask: Any, values: Terms) -> None:
+    for column, value in zip(columns, values, strict=True):
+        column[mask] = value

@@ -9,6 +9,7 @@ stress act on the body: kappa times the slip law.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,19 +18,19 @@ from surrogate.basics.checks import shown
 from surrogate.basics.elementwise import quotient, ratio
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.contact.closed_forms import ClosedForm
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import DomainError, InputError
 
 __all__ = [
-    "ANY_LAW",
     "COUPLED",
     "LAWS",
     "PROJECTED",
     "SLIP",
+    "AnyLaw",
     "coupled",
     "force_bound",
     "is_chosen",
+    "law_of",
     "of_law",
     "require_known_load",
 ]
@@ -40,26 +41,68 @@ LAWS = (PROJECTED, SLIP, COUPLED)
 _BEST = "table"
 
 
-def is_chosen(model: object) -> bool:
-    """Return whether the model is chosen point by point, perhaps the law with it.
+@dataclass(frozen=True)
+class AnyLaw:
+    """A model whose law is chosen point by point.
+
+    Parameters
+    ----------
+    named : FittedModel or None
+        The model that somebody named; None where it is chosen as well.
 
     Examples
     --------
-    >>> is_chosen("auto"), is_chosen(ANY_LAW), is_chosen("table")
+    >>> str(AnyLaw()), AnyLaw().law
+    ('auto, law auto', 'auto')
+    """
+
+    named: FittedModel | None = None
+    law = AUTO
+
+    @property
+    def name(self) -> str:
+        """Name of the model, or "auto"."""
+        return AUTO if self.named is None else self.named.name
+
+    @property
+    def contact(self) -> FittedModel:
+        """The model that tells of the contact without friction and wear."""
+        model = force_model(_BEST) if self.named is None else self.named
+        assert isinstance(model, FittedModel)
+        return model
+
+    def __str__(self) -> str:
+        return f"{self.name}, law {self.law}"
+
+
+def is_chosen(model: object) -> bool:
+    """Return whether the model or its law is chosen point by point.
+
+    Examples
+    --------
+    >>> is_chosen("auto"), is_chosen(AnyLaw()), is_chosen("table")
     (True, True, False)
     """
-    return is_auto(model) or (isinstance(model, str) and model == ANY_LAW)
+    return is_auto(model) or isinstance(model, AnyLaw)
 
 
-ANY_LAW = "auto, law auto"
-"""What `of_law` returns where model and law are to be chosen point by point."""
+def law_of(model: Any) -> str:
+    """Return the law of a model or of a model's name.
+
+    Examples
+    --------
+    >>> law_of("auto"), law_of("eq13"), law_of(AnyLaw())
+    ('projected', 'projected', 'auto')
+    """
+    return PROJECTED if is_auto(model) else getattr(model, "law", PROJECTED)
 
 
 def of_law(model: Any, law: object, any_law: bool = False) -> Any:
     """Return what `model` is to be under a law: itself for "projected", else a model's object.
 
     Under "slip" and "coupled" the name "auto" is the table, the quickest of the fitted models at
-    many points. Under "auto" a closed form is itself, as all are of the projected law.
+    many points. Under "auto" a closed form is itself, as all are of the projected law, and so is
+    a model that was put under a law already.
 
     Parameters
     ----------
@@ -79,17 +122,23 @@ def of_law(model: Any, law: object, any_law: bool = False) -> Any:
 
     Examples
     --------
-    >>> of_law("eq13", "projected")
-    'eq13'
+    >>> of_law("eq13", "projected"), of_law("eq13", "auto", any_law=True)
+    ('eq13', 'eq13')
+    >>> str(of_law("table", "auto", any_law=True))
+    'table, law auto'
     """
     known = (*LAWS, AUTO) if any_law else LAWS
     if not isinstance(law, str) or law not in known:
         raise InputError(f"law must be one of {', '.join(known)}, but is {shown(law)}; choose one.")
-    if law == PROJECTED:
+    if law == PROJECTED or (law == AUTO and isinstance(model, AnyLaw)):
         return model
+    if law == AUTO and is_auto(model):
+        return AnyLaw()
     chosen = force_model(_BEST if is_auto(model) else model)
     if law == AUTO:
-        return _of_any_law(model, chosen)
+        if isinstance(chosen, FittedModel) and chosen.law == PROJECTED:
+            return AnyLaw(chosen)
+        return model
     if not isinstance(chosen, FittedModel):
         raise InputError(
             f"law={law!r} must have a model fitted to finite elements, but {chosen.name!r} is of "
@@ -101,17 +150,6 @@ def of_law(model: Any, law: object, any_law: bool = False) -> Any:
             "anew with regen-surrogate, or take the models that wirecut ships."
         )
     return coupled(chosen.under(SLIP)) if law == COUPLED else chosen.under(law)
-
-
-def _of_any_law(model: Any, chosen: Any) -> Any:
-    if is_auto(model):
-        return ANY_LAW
-    if isinstance(chosen, ClosedForm):
-        return model
-    raise InputError(
-        f"law='auto' must have model='auto' or a closed form, but the model is {chosen.name!r}; "
-        "name the law as well."
-    )
 
 
 def coupled(slip: FittedModel) -> FittedModel:

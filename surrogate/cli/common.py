@@ -110,14 +110,20 @@ def add_model_option(command: argparse.ArgumentParser) -> None:
 def add_law_option(
     command: argparse.ArgumentParser, any_law: bool = False, coupled: bool = True
 ) -> None:
-    more = "; auto: the cheapest whose error beside such solutions will do" if any_law else ""
+    default = "auto" if any_law else "projected"
+    more = (
+        "; auto: the cheapest whose error beside such solutions will do, and projected, with an "
+        "unknown error, where there are none near"
+        if any_law
+        else ""
+    )
     last = "; coupled: with the stresses acting on the solid" if coupled else ""
     command.add_argument(
         "--law",
         choices=("projected", "slip", *(["coupled"] if coupled else []), *(["auto"] * any_law)),
-        default="projected",
+        default=default,
         help="projected: the paper's Eq. (S2); slip: the balance of energy to first order in wear "
-        f"and friction, whose force is larger{last}{more} (default projected)",
+        f"and friction, whose force is larger{last}{more} (default {default})",
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import asdict, replace
+from textwrap import fill
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from surrogate.basics.checks import FloatOrArray
 from surrogate.basics.picture_form import picture_form, pictures_as
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.basics.records import share as share_in_words
-from surrogate.choosing.by_name import force_model, is_auto
+from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.catalogue import models
 from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import PROJECTED
@@ -68,10 +69,11 @@ def force_record(
     )
     return {
         "model": force.model,
-        "law": "auto" if any_law else force.law,
+        "law": AUTO if any_law else force.law,
         "any_law": any_law,
         "thickness": thickness,
         "wires": wires,
+        "notes": list(force.doubts),
         "warnings": doubts_of_scene(scene.values()),
     }
 
@@ -101,7 +103,13 @@ def force_text(record: Record, diameters: bool = False) -> str:
     law = "" if record["law"] == PROJECTED else f", law {_LAW_WORDS[record['law']]}"
     text = f"Model {name}, {words}{law}\n" + table(header, rows)
     unknown = any(wire["relative_error"] != wire["relative_error"] for wire in record["wires"])
-    return "\n".join([text, _UNKNOWN_ERROR[record["law"]]]) if law and unknown else text
+    if unknown and record["law"] in _UNKNOWN_ERROR:
+        text = f"{text}\n{_UNKNOWN_ERROR[record['law']]}"
+    return "\n".join([text, *_notes(record)])
+
+
+def _notes(record: Record) -> list[str]:
+    return [fill(f"Note: {note}.", 96, subsequent_indent="  ") for note in record["notes"]]
 
 
 _LAW_WORDS = {
@@ -116,9 +124,6 @@ _UNKNOWN_ERROR = {
 Where the error is unknown the crack's tip touches the wire: the force under the law of slip then
 depends on how sharp the tip is. That of the finite elements has a radius of 0.0005 R_w.""",
     "coupled": "Where the error is unknown no solution with friction and wear is near.",
-    "auto": """\
-Where the law is projected and the error unknown, nobody has solved the problem in which the wire
-rubs: the force is that of Eq. (S2), and tau_w and xi are effective numbers there.""",
 }
 
 
@@ -144,9 +149,16 @@ def regime_record(scene: Scene, regime: Regime, model: str) -> Record:
         dimensionless_toughness=_dimensionless_toughness(scene),
         dominant=regime.dominant,
         contact=regime.contact,
+        law=regime.laws,
     )
-    doubts = doubts_of_scene(scene.values())
-    return {"model": model, "threshold": regime.threshold, "wires": wires, "warnings": doubts}
+    return {
+        "model": model,
+        "law": regime.law,
+        "threshold": regime.threshold,
+        "wires": wires,
+        "notes": list(regime.doubts),
+        "warnings": doubts_of_scene(scene.values()),
+    }
 
 
 def _dimensionless_toughness(scene: Scene) -> FloatOrArray:
@@ -159,20 +171,22 @@ def _dimensionless_toughness(scene: Scene) -> FloatOrArray:
 
 def regime_text(record: Record, diameters: bool = False) -> str:
     """Return a table of `regime_record`."""
-    header = (*_wire_header(diameters), "dominant term", "contact")
+    header = (*_wire_header(diameters), "dominant term", "contact", "law")
     rows = [
         (
             *_wire_cells(wire, diameters),
             wire["dominant"],
             wire["contact"],
+            wire["law"],
         )
         for wire in record["wires"]
     ]
     model = "Eq. (13)" if record["model"] == SPLIT_MODEL else f"model {record['model']}"
-    return table(header, rows) + (
-        f"\nA term dominates where it is {share_in_words(record['threshold'])} of the force of "
+    said = (
+        f"A term dominates where it is {share_in_words(record['threshold'])} of the force of "
         f"{model} or more; there is a transition where none is."
     )
+    return "\n".join([table(header, rows), said, *_notes(record)])
 
 
 def models_record() -> Record:
@@ -299,7 +313,8 @@ def run_force(options: argparse.Namespace) -> int:
                 thickness=options.thickness,
                 law=options.law,
             )
-    record = force_record(scene, force, options.thickness, options.law == "auto")
+    any_law = options.law == AUTO and force.law_error is not None  # of closed forms it is none
+    record = force_record(scene, force, options.thickness, any_law)
     record |= {"picture": options.plot}
     return print_answer(
         options, record, lambda record: _with_picture(force_text(record, wide), record)
@@ -314,7 +329,7 @@ def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
     choice = options.model, options.rtol, options.extrapolate
     regime = classify(scene, options.threshold, *choice, law=options.law)
-    record = regime_record(scene, regime, options.model) | {"law": options.law}
+    record = regime_record(scene, regime, options.model)
     wide = _in_diameters(options)
     return print_answer(options, record, lambda record: regime_text(record, wide))
 

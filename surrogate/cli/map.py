@@ -13,6 +13,8 @@ import numpy as np
 
 from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.common import add_law_option, share, whole_number
 from surrogate.cli.identify import add_table_options
 from surrogate.cli.map_points import (
@@ -154,12 +156,17 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add("--linear", nargs="+", choices="xy", default=[], help="axes with a linear scale")
     add("--fix", nargs="+", default=[], metavar="NAME=VALUE", help="what else is given")
     add("--model", help="force model, see 'wirecut models' (default eq13, or that of --points)")
-    add_law_option(command)
+    add_law_option(command, any_law=True)
     command.set_defaults(law=None)
     for option, metavar, default, words in (
         ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
         ("--miss", "SHARE", 0.1, "share by which a limit may be off (default 0.1)"),
-        ("--rtol", "ERROR", 0.02, "error that will do with --model auto (default 0.02)"),
+        (
+            "--rtol",
+            "ERROR",
+            None,
+            "error that has to be met with --model auto (default 0.02 where it can be had)",
+        ),
     ):
         add(option, type=share, default=default, metavar=metavar, help=words)
     add(
@@ -222,7 +229,12 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     read = [note for gel in own for note in gel.notes]
     doubted = [f"{gel.file}: {doubt}" for gel in own for doubt in gel.fit.warnings]
     return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | {
-        "notes": [*read, *doubted, *(notes if options.out or own else [])],
+        "notes": [
+            *read,
+            *doubted,
+            *made.force.doubts,
+            *(notes if options.out or own else []),
+        ],
         "points": rows,
         "diameters": options.diameters,
     }
@@ -268,6 +280,7 @@ def map_text(made: dict[str, Any]) -> str:
     parts = [
         head,
         table(("dominant term", "of the map"), shares),
+        _laws(made),
         f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
         table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
     ]
@@ -276,6 +289,14 @@ def map_text(made: dict[str, Any]) -> str:
     if made["files"]:
         parts.append(f"Written: {', '.join(made['files'])}")
     return "\n\n".join(part for part in parts if part)
+
+
+def _laws(made: dict[str, Any]) -> str:
+    """Return the laws of a map on which they were chosen, for people."""
+    if len(made["laws"]) == 1:
+        return f"Law: {next(iter(made['laws']))}."
+    rows = [(name, f"{100.0 * share:.1f} %") for name, share in made["laws"].items()]
+    return table(("law", "of the map"), rows)
 
 
 def _told_in_diameters(made: dict[str, Any]) -> dict[str, Any]:
@@ -319,7 +340,7 @@ def run_map(options: argparse.Namespace, own: Sequence[Drawn] = ()) -> RegimeMap
         fixed,
         own[0].fit.model if own else options.model or "eq13",
         rtol=options.rtol,
-        law="projected" if own else options.law or "projected",
+        law=PROJECTED if own else options.law or AUTO,  # an identified model has its own
         scales=tuple("linear" if axis in options.linear else "log" for axis in "xy"),
         nodes=options.nodes,
         threshold=options.threshold,

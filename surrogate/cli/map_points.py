@@ -14,6 +14,7 @@ import numpy as np
 from surrogate.basics.files import opened
 from surrogate.basics.records import number, table
 from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.common import Record, wire_rows
 from surrogate.contact.closed_forms import ClosedForm
 from surrogate.cutting.regimes import classify
@@ -272,9 +273,10 @@ def points_record(
             if points not in shown:
                 continue
             centre, error = places(points, made)
-            dominant = classify(
-                points.scene, made.regime.threshold, model=made.model, extrapolate=True
-            ).dominant
+            model: Any = made.model  # which has its law, or is of the projected one
+            regime = classify(
+                points.scene, made.regime.threshold, model, extrapolate=True, law=PROJECTED
+            )
             rows += [
                 {"points": points.label, "file": gel.file, **row}
                 for row in wire_rows(
@@ -283,7 +285,7 @@ def points_record(
                     y=centre[1],
                     x_std=error[0],
                     y_std=error[1],
-                    dominant=dominant,
+                    dominant=regime.dominant,
                 )
             ]
     return rows

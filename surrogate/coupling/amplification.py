@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,34 @@ from surrogate.basics.elementwise import dense, log, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
-__all__ = ["Amplification", "load_of"]
+__all__ = ["Amplification", "Place", "load_of"]
 
 Array = NDArray[np.float64]
+
+
+class Place(NamedTuple):
+    """Where loads are among the coupled solutions: what all else is looked up by.
+
+    Parameters
+    ----------
+    known : bool or ndarray of bool
+        Whether solutions reach to g, alpha and the load; also without a load only where they
+        reach to g and alpha.
+    x, y, xi, w : float or ndarray
+        The variables of the polynomial.
+    """
+
+    known: Any
+    x: Any
+    y: Any
+    xi: Any
+    w: Any
+
+    def at(self, mask: NDArray[np.bool_]) -> Place:
+        """Return some of the places."""
+        return Place(
+            *(v if np.ndim(v) == 0 else np.broadcast_to(v, mask.shape)[mask] for v in self)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +128,7 @@ class Amplification:
 
     def share_at(self, x: Any, y: Any, xi: Any, wear: Any) -> Any:
         """Return the same at x = ln(g/g_touch) and y = ln alpha."""
-        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
-        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
-        inside = inside & (x + log_touch(self.touch, y) >= self._log_lowest)
+        inside = self._inside(x, y)
         size, direction = load_of(xi, wear, self.largest)
         x, y = self._clamped(x, y)
         with np.errstate(all="ignore"):
@@ -122,6 +145,46 @@ class Amplification:
         known = np.less_equal(self.share(g, alpha, xi, wear), 1.0)
         load = xi + 0.1 * _log1p(wear)
         return where(known, self._of_cell(self.growth, g, alpha) * load, np.nan)
+
+    def place(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Place:
+        """Return where a load is, and whether solutions reach there.
+
+        Examples
+        --------
+        >>> from surrogate.coupling.shipped import amplification
+        >>> kappa = amplification()
+        >>> here = kappa.place(0.1, 6.0, 0.01, 0.02)
+        >>> here.known, kappa.log_at(here) == kappa.log_factor(0.1, 6.0, 0.01, 0.02)
+        (True, True)
+        """
+        x, y = self._place(g, alpha)
+        inside = self._inside(x, y)
+        if not np.any(inside):
+            return Place(inside, x, y, xi, wear)
+        size, direction = load_of(xi, wear, self.largest)
+        known = inside & (size <= self.reach_at(*self._clamped(x, y), direction))
+        return Place(known, x, y, xi, _log1p(wear))
+
+    def log_at(self, place: Place) -> Any:
+        """Return ln kappa at places that are known."""
+        return self.polynomial(*place[1:])
+
+    def error_at(self, place: Place) -> Any:
+        """Return the bound of the error of ln kappa at places that are known."""
+        return self._in_cell(self.errors, place)
+
+    def most_at(self, place: Place) -> Any:
+        """Return a bound of |ln kappa| at places that are known."""
+        return self._in_cell(self.growth, place) * (place.xi + 0.1 * place.w)
+
+    def _in_cell(self, table: Array, place: Place) -> Any:
+        value = table[self._cell(place.x, place.y)]
+        return float(value) if np.ndim(value) == 0 else value
+
+    def _inside(self, x: Any, y: Any) -> Any:
+        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
+        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
+        return inside & (x + log_touch(self.touch, y) >= self._log_lowest)
 
     def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         y = log(alpha)

@@ -15,7 +15,13 @@ from surrogate.coupling.amplification import Amplification
 from surrogate.coupling.polynomial import Polynomial
 from surrogate.errors import InputError
 
-__all__ = ["AMPLIFICATION_FILE", "amplification", "amplification_of", "content_of_amplification"]
+__all__ = [
+    "AMPLIFICATION_FILE",
+    "amplification",
+    "amplification_if_any",
+    "amplification_of",
+    "content_of_amplification",
+]
 
 AMPLIFICATION_FILE = "coupled.npz"
 
@@ -98,11 +104,29 @@ def amplification() -> Amplification:
     return _in(folder_in_use())
 
 
+def amplification_if_any() -> Amplification | None:
+    """Return kappa of the models in use; None where they have none.
+
+    Raises
+    ------
+    InputError
+        If its file is damaged.
+    """
+    try:
+        return amplification()
+    except _MissingError:
+        return None
+
+
+class _MissingError(InputError):
+    """The models in use come without kappa."""
+
+
 @cache
 def _in(folder: str) -> Amplification:
     file = os.path.join(folder, AMPLIFICATION_FILE)
     if not os.path.isfile(file):
-        raise InputError(
+        raise _MissingError(
             f"the law 'coupled' must have the file {AMPLIFICATION_FILE} beside {FILE}, but "
             f"{folder} has none; choose the law 'slip', or make the file with "
             "python -m fe_training.coupled --fit."

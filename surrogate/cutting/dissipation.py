@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from surrogate.basics.checks import (
@@ -18,15 +19,9 @@ from surrogate.basics.checks import (
     one_number,
 )
 from surrogate.basics.elementwise import AT_ONCE, apply, evaluate_checked
-from surrogate.choosing.by_name import AUTO, force_model
-from surrogate.choosing.laws import (
-    ANY_LAW,
-    COUPLED,
-    PROJECTED,
-    is_chosen,
-    of_law,
-    require_known_load,
-)
+from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.effective import warn_of_law
+from surrogate.choosing.laws import COUPLED, AnyLaw, of_law, require_known_load
 from surrogate.contact.base import ForceModel
 from surrogate.equations import RELATIVE_WEAR_STRENGTH
 
@@ -41,7 +36,7 @@ def dissipative_force(
     model: str | ForceModel = AUTO,
     rtol: float | None = None,
     extrapolate: bool = False,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> FloatOrArray:
     """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
 
@@ -62,14 +57,15 @@ def dissipative_force(
         can be had.
     extrapolate : bool, default False
         As in `cutting_force`.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
+        the error that has to do is relative to this force, without the cleavage.
 
     Returns
     -------
     float or ndarray
         F_d/(mu R_w T) = 2 (tau_w A/mu + xi B) [-], of the common shape; with A* and B* under the
-        law "slip".
+        law "slip", and kappa times that under "coupled".
 
     Raises
     ------
@@ -83,6 +79,12 @@ def dissipative_force(
     AccuracyError
         If the model is "auto" and none is as exact as `rtol`.
 
+    Warns
+    -----
+    UnknownErrorWarning
+        Once, if the law is "auto" and at some points the projected one with effective strengths,
+        as no solution with friction and wear is near.
+
     Notes
     -----
     Range of validity: that of the model, see `cutting_force`.
@@ -93,7 +95,9 @@ def dissipative_force(
 
     Examples
     --------
-    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31):.0f}")
+    >>> print(f"{dissipative_force(1.0, 6.0, 0.01, 0.1):.2f}")
+    0.44
+    >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, law='projected'):.0f}")
     33
     >>> print(f"{dissipative_force(10.0, 2.0, 0.1, 11.31, model='eq13'):.4f}")
     46.6400
@@ -103,13 +107,17 @@ def dissipative_force(
     rtol = None if rtol is None else one_number(RTOL, rtol)
     extrapolate = flag("extrapolate", extrapolate)
     values = (g, alpha, friction_coefficient, relative_wear_strength)
-    model = of_law(model, law, any_law=True)
-    automatic = is_chosen(model)
-    chosen = force_model("table" if automatic else model)
+    wanted = of_law(model, law, any_law=True)
+    any_law = isinstance(wanted, AnyLaw)
+    chosen = force_model("table" if is_auto(wanted) else wanted.contact if any_law else wanted)
     in_g, in_alpha = chosen.accepted(extrapolate)
     quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
-    if automatic:
-        return _automatic_dissipation(quantities, values, rtol, extrapolate, model == ANY_LAW)
+    if any_law or is_auto(wanted):
+        checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
+        broadcast_shape(tuple(q.name for q in quantities), checked)
+        if any_law:
+            return _lawful_dissipation(checked, wanted, rtol, extrapolate)
+        return _automatic_dissipation(checked, rtol, extrapolate)
 
     def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
         friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
@@ -123,23 +131,34 @@ def dissipative_force(
 
 
 def _automatic_dissipation(
-    quantities: tuple[Quantity, ...],
-    values: tuple[Any, ...],
-    rtol: float | None,
-    extrapolate: bool,
-    any_law: bool,
+    values: tuple[Any, ...], rtol: float | None, extrapolate: bool
 ) -> FloatOrArray:
     from surrogate.choosing.auto import AutomaticTerms
-    from surrogate.choosing.auto_law import LawfulTerms
 
-    checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
-    broadcast_shape(tuple(q.name for q in quantities), checked)
-    g, alpha, xi, relative_wear = checked
-    scene = (1.0, g, 1.0, xi, relative_wear, alpha)
-    automatic = (LawfulTerms if any_law else AutomaticTerms)(scene, rtol, of_dissipation=True)
+    scene = _of_unit_wire(values)
+    automatic = AutomaticTerms(scene, rtol, of_dissipation=True)
     friction, wear, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
     automatic.finish(extrapolate)
     return friction + wear  # type: ignore[no-any-return]
+
+
+def _lawful_dissipation(
+    values: tuple[Any, ...], model: AnyLaw, rtol: float | None, extrapolate: bool
+) -> FloatOrArray:
+    from surrogate.choosing.auto_law import LawfulTerms
+
+    scene = _of_unit_wire(values)
+    lawful = LawfulTerms(scene, rtol, of_dissipation=True, named=model.named)
+    friction, wear, *_, of_law = apply(lawful, scene, lawful.dtypes, AT_ONCE)
+    lawful.finish(extrapolate)
+    warn_of_law(np.isnan(of_law), "the dissipative force", depth=4)
+    return friction + wear  # type: ignore[no-any-return]
+
+
+def _of_unit_wire(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return a scene whose mu and R_w are 1."""
+    g, alpha, xi, relative_wear = values
+    return 1.0, g, 1.0, xi, relative_wear, alpha
 
 
 @cache

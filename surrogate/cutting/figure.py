@@ -29,7 +29,7 @@ from surrogate.basics.figures import (
 )
 from surrogate.basics.picture_form import picture_form
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, is_chosen, of_law
+from surrogate.choosing.laws import AnyLaw, is_chosen, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.errors import InputError
@@ -56,7 +56,7 @@ def plot_force(
     model: str | ForceModel = AUTO,
     rtol: float | None = None,
     thickness: float | None = None,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> Axes:
     """Draw the steady cutting force of a solid and its parts over the radius of the wire.
 
@@ -76,8 +76,10 @@ def plot_force(
         Relative error that has to be met with "auto" [-]; by default 0.02 where it can be had.
     thickness : float, optional
         Thickness of the sample [m]: the force is then that on all of it [N].
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
+        each radius has its own, the line is dotted where nobody knows the error of any, and jumps
+        where the law changes to the projected one.
 
     Returns
     -------
@@ -207,16 +209,23 @@ def _draw_parts(ax: Axes, x: Array, size: float, force: CuttingForce) -> list[tu
 
 
 def _draw_total(
-    ax: Axes, x: Array, total: Array, force: CuttingForce, model: str | ForceModel
+    ax: Axes, x: Array, total: Array, force: CuttingForce, model: str | ForceModel | AnyLaw
 ) -> list[Any]:
     holds = np.broadcast_to(force.in_domain, x.shape)
     name = "cheapest model exact enough" if is_chosen(model) else f"model {model}"
-    inside, beyond = np.where(holds, total, np.nan), np.where(holds, np.nan, total)
-    edges = holds[1:] != holds[:-1]
-    beyond[1:][edges], beyond[:-1][edges] = total[1:][edges], total[:-1][edges]
-    handles: list[Any] = ax.plot(x, inside, color="black", lw=1.2, zorder=3, label=name)
-    if not np.all(holds):
-        handles += ax.plot(x, beyond, "k--", lw=0.9, zorder=3, label="beyond its range")
+    unknown = np.zeros(x.shape, dtype=bool)
+    if isinstance(model, AnyLaw) and force.law_error is not None:
+        unknown = np.isnan(np.broadcast_to(force.law_error, x.shape)) & holds
+    handles: list[Any] = []
+    lines: tuple[tuple[Any, Any, float, str], ...] = (
+        (holds & ~unknown, "-", 1.2, name),
+        (unknown, (0, (1, 1)), 1.2, "law projected, error unknown"),
+        (~holds, "--", 0.9, "beyond its range"),
+    )
+    for where, dashes, width, label in lines:
+        if where.any():
+            line = _with_ends(where, holds, total)
+            handles += ax.plot(x, line, "k", ls=dashes, lw=width, zorder=3, label=label)
     error = np.broadcast_to(
         np.nan if force.relative_error is None else force.relative_error, x.shape
     )
@@ -229,6 +238,15 @@ def _draw_total(
         )
         handles.append(band)
     return handles
+
+
+def _with_ends(where: Any, holds: Any, total: Array) -> Array:
+    """Return the total where a line is drawn, up to its neighbours where the model ends."""
+    line = np.where(where, total, np.nan)
+    if not np.any(where & holds):  # what continues the model begins at its last point
+        edges = where[1:] != where[:-1]
+        line[1:][edges], line[:-1][edges] = total[1:][edges], total[:-1][edges]
+    return line
 
 
 def _label(ax: Axes, thickness: float | None, scene: Scene) -> None:

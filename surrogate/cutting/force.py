@@ -18,11 +18,12 @@ from surrogate.basics.checks import (
 from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply
 from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.effective import doubt_of_law
 from surrogate.choosing.laws import (
     PROJECTED,
     SLIP,
+    AnyLaw,
     force_bound,
-    is_chosen,
     of_law,
     require_known_load,
 )
@@ -75,6 +76,9 @@ class CuttingForce(Record):
     law_error : float, ndarray or None
         The part of the law: of its own force beside finite elements on which the wire rubs [-]. 0
         under "coupled"; None where it was not asked for, under "projected" and "slip".
+    doubts : tuple of str
+        What is to be doubted, in words: one sentence where the law "auto" fell back to "projected",
+        as the error of every law is unknown there.
 
     References
     ----------
@@ -99,6 +103,7 @@ class CuttingForce(Record):
     laws: str | NDArray[np.str_] = PROJECTED
     fit_error: FloatOrArray | None = None
     law_error: FloatOrArray | None = None
+    doubts: tuple[str, ...] = ()
 
 
 def cutting_force(
@@ -106,7 +111,7 @@ def cutting_force(
     model: str | ForceModel = AUTO,
     rtol: float | None = None,
     extrapolate: bool = False,
-    law: str = PROJECTED,
+    law: str = AUTO,
     outside: str = "raise",
 ) -> CuttingForce:
     """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (S2).
@@ -123,18 +128,22 @@ def cutting_force(
     rtol : float, optional
         Relative error that has to be met with "auto" [-], else an `AccuracyError` is raised; by
         default 0.02 where it can be had, and else the best there is. `relative_error` of the result
-        says which bound holds.
+        says which bound holds. With the law "auto" it is beside finite elements on which the wire
+        rubs, with another one beside finite elements of that law.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
         the nearest alpha; and kappa with the nearest load.
-    law : str, default "projected"
-        "projected" for Eq. (S2) of the paper, whose A and B take the shear stress along the cut
-        only; "slip" for the balance of energy to first order in tau_w and xi, with the slip arc A*
-        and the slip load B* in their place, which needs a fitted model; "coupled" for the stresses
-        acting on the body, kappa times the slip law. Eq. (S2) is too small by a tenth of F_d in the
-        far field, by a quarter to a half at g = 1, and by more above. "auto" for the cheapest of
-        them whose error beside coupled solutions will do; where nobody knows that error it is
-        "projected", the law with an experiment behind it, whose tau_w is an effective one then.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow. "projected" for Eq. (S2) of the
+        paper, whose A and B take the shear stress along the cut only; "slip" for the balance of
+        energy to first order in tau_w and xi, with the slip arc A* and the slip load B* in their
+        place, which needs a fitted model; "coupled" for the stresses acting on the body, kappa
+        times the slip law. Eq. (S2) is too small by a tenth of F_d in the far field, by a quarter
+        to a half at g = 1, and by more above. "auto" takes at each point the cheapest of them
+        whose error beside coupled solutions will do. Where no such solution is near, nobody knows
+        that error: the law is then "projected", which an experiment is described by, with
+        effective strengths tau_w and xi, and `doubts` of the result says so. The closed forms are
+        of the law "projected", and so are their forces.
     outside : str, default "raise"
         What becomes of points outside the domain of a fitted model: "raise" for an error that names
         the first, "nan" for nan in their total, friction and wear, and False in `in_domain`.
@@ -156,8 +165,8 @@ def cutting_force(
         domain of a fitted model, or under the law "coupled" the load outside the coupled
         solutions, and `extrapolate` is not set.
     AccuracyError
-        If `rtol` is given, the model or the law is "auto" and none is as exact; the message names
-        the best one.
+        If `rtol` is given, the model or the law is "auto" and none is as exact, or none is known
+        to be; the message names the best one.
 
     Warns
     -----
@@ -182,11 +191,20 @@ def cutting_force(
 
     Examples
     --------
+    >>> tissue = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
+    >>> force = cutting_force(tissue)
+    >>> print(f"{force.total:.1f} N/m")
+    7.2 N/m
+    >>> force.law in ("slip", "coupled"), force.relative_error <= 0.02
+    (True, True)
+
+    A neo-Hookean gel that wears more than any solution with friction and wear reaches:
+
     >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
     >>> force = cutting_force(gel)
-    >>> print(f"{force.total:.1f} N/m")
-    7.3 N/m
-    >>> force.relative_error <= 0.02
+    >>> print(f"{force.total:.1f} N/m by the law {force.law!r}, error {force.relative_error}")
+    7.3 N/m by the law 'projected', error nan
+    >>> cutting_force(gel, law="projected").relative_error <= 0.02  # beside that law alone
     True
     >>> force = cutting_force(gel, model="eq13")
     >>> print(f"{force.total:.4f} = {force.cleavage:.4f} + {force.friction:.4f} + {force.wear:.4f}")
@@ -202,12 +220,12 @@ def cutting_force(
 
 def force_of(
     scene: Scene,
-    model: str | ForceModel = AUTO,
+    model: str | ForceModel | AnyLaw = AUTO,
     rtol: float | None = None,
     extrapolate: bool = False,
     outside: str = "raise",
 ) -> CuttingForce:
-    """Return the force as `cutting_force` does, of scenes that nobody gave as they are.
+    """Return the force under the model's own law, of scenes that nobody gave as they are.
 
     Examples
     --------
@@ -217,10 +235,12 @@ def force_of(
     rtol = None if rtol is None else one_number(RTOL, rtol)
     extrapolate = flag("extrapolate", extrapolate)
     stays = extrapolate or _is_nan(outside)
-    if is_chosen(model):
+    if isinstance(model, AnyLaw):
         require_scene(scene)
-        of_points = _automatic if is_auto(model) else _lawful
-        return _blanked(of_points(scene, rtol, stays), scene, stays and not extrapolate)
+        return _blanked(_lawful(scene, model, rtol, stays), scene, stays and not extrapolate)
+    if is_auto(model):
+        require_scene(scene)
+        return _blanked(_automatic(scene, rtol, stays), scene, stays and not extrapolate)
     chosen = force_model(model)
     require_scene(scene)
     values = scene.values()
@@ -291,14 +311,15 @@ def _summed(scene: Scene, terms: Any) -> Any:
     return apply(parts, scene.values(), (float, float, *terms.dtypes), AT_ONCE)
 
 
-def _lawful(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
+def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.auto import one_name
     from surrogate.choosing.auto_law import LawfulTerms
 
-    lawful = LawfulTerms(scene.values(), rtol)
-    total, cleavage, friction, wear, holds, model, law, fit, of_law = _summed(scene, lawful)
+    lawful = LawfulTerms(scene.values(), rtol, named=model.named)
+    total, cleavage, friction, wear, holds, number, law, fit, of_law = _summed(scene, lawful)
     lawful.finish(extrapolate)
-    names, laws = lawful.names(model), lawful.laws(law)
+    names, laws = lawful.names(number), lawful.laws(law)
+    doubt = doubt_of_law(np.isnan(of_law))
     return CuttingForce(
         total,
         cleavage,
@@ -312,6 +333,7 @@ def _lawful(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce
         laws,
         fit,
         of_law,
+        () if doubt is None else (doubt,),
     )
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surrogate.basics.checks import FloatOrArray, defined, flag
 from surrogate.basics.elementwise import apply
 from surrogate.basics.records import Record
-from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, of_law, require_known_load
+from surrogate.choosing.laws import PROJECTED, require_known_load
+from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
@@ -44,6 +45,12 @@ class ForceGradient(Record):
         By alpha [N/m].
     model : str
         Name of the model.
+    law : str
+        The law of dissipation; "auto" where the points have several.
+    laws : str or ndarray of str
+        That of each point.
+    doubts : tuple of str
+        What is to be doubted, in words, as in a `CuttingForce`.
 
     Examples
     --------
@@ -65,6 +72,9 @@ class ForceGradient(Record):
     wear_strength: FloatOrArray
     stiffening_exponent: FloatOrArray
     model: str
+    law: str = PROJECTED
+    laws: str | NDArray[np.str_] = PROJECTED
+    doubts: tuple[str, ...] = ()
 
 
 def force_gradient(
@@ -72,7 +82,7 @@ def force_gradient(
     model: str | ForceModel = AUTO,
     rtol: float | None = None,
     extrapolate: bool = False,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> ForceGradient:
     """Return the analytic derivatives of the cutting force by every quantity of a scene.
 
@@ -96,13 +106,15 @@ def force_gradient(
         As in `cutting_force`, but that "auto" is one model for all points: the cheapest whose A
         and B meet `rtol` all over its domain.
     rtol : float, optional
-        Relative error of A and B that will do with "auto" [-]; by default 0.02 where
-        a model is as exact, else that of the most exact one.
-        and tau_w; of the slopes of A and B, which are in the others, no error is known.
+        Relative error of A and B that will do with "auto" [-]; by default 0.02 where a model is as
+        exact, else that of the most exact one. Of the slopes of A and B no error is known.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
+        "coupled" wherever coupled solutions reach, whose first order "slip" is, and "projected"
+        elsewhere. The derivatives are those of the law at the point, also beside a point that has
+        the other one.
 
     Returns
     -------
@@ -151,8 +163,10 @@ def force_gradient(
     >>> slope.model, slope.toughness < 0.5
     ('table', True)
     """
-    chosen, extrapolate = one_model(of_law(model, law), rtol), flag("extrapolate", extrapolate)
+    extrapolate = flag("extrapolate", extrapolate)
     require_scene(scene)
+    by_law = parted(model, law, rtol, scene.values())
+    chosen = by_law.model
     if not isinstance(chosen, FittedModel):
         chosen.stiffening.checked(scene.stiffening_exponent)
     elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
@@ -160,9 +174,15 @@ def force_gradient(
         require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
         require_known_load(chosen, scene.values())
     with np.errstate(all="ignore"):
-        slopes = apply(chosen.gradient, scene.values(), (float,) * 6)
+        slopes = by_law.evaluate(lambda one, part: apply(one.gradient, part, (float,) * 6))
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"
     for name, slope in zip(NAMES, slopes, strict=True):
         defined(f"derivative by {name}", slope, remedy)
     warn_of_scene(scene.values())
-    return ForceGradient(**dict(zip(NAMES, slopes, strict=True)), model=chosen.name)
+    return ForceGradient(
+        **dict(zip(NAMES, slopes, strict=True)),
+        model=chosen.name,
+        law=by_law.law,
+        laws=by_law.laws,
+        doubts=by_law.doubts,
+    )

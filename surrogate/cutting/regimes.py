@@ -17,8 +17,8 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import AT_ONCE, apply, product, ratio
 from surrogate.basics.records import Record
-from surrogate.choosing.by_name import AUTO, force_model
-from surrogate.choosing.laws import PROJECTED, is_chosen, of_law
+from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.laws import PROJECTED, AnyLaw, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.reading.plausibility import warn_of_scene
@@ -71,6 +71,12 @@ class Regime(Record):
         One of `CONTACTS`: "indentation" where the wire touches the crack tip, else "far-field".
     threshold : float
         Share of the force from which a term was taken to dominate [-].
+    law : str
+        The law of dissipation by which terms were compared; "auto" where the cuts have several.
+    laws : str or ndarray of str
+        That of each cut.
+    doubts : tuple of str
+        What is to be doubted, in words, as in a `CuttingForce`.
 
     References
     ----------
@@ -88,6 +94,9 @@ class Regime(Record):
     dominant: str | NDArray[np.str_]
     contact: str | NDArray[np.str_]
     threshold: float
+    law: str = PROJECTED
+    laws: str | NDArray[np.str_] = PROJECTED
+    doubts: tuple[str, ...] = ()
 
 
 def classify(
@@ -96,7 +105,7 @@ def classify(
     model: str | ForceModel = AUTO,
     rtol: float | None = None,
     extrapolate: bool = False,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> Regime:
     """Return which term of the force dominates, and whether the wire touches the crack tip.
 
@@ -114,8 +123,9 @@ def classify(
         be had.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain, as in `cutting_force`.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
+        each cut is classified by the law of its own force, which `laws` of the result tells.
 
     Returns
     -------
@@ -177,7 +187,7 @@ def classify(
 
 
 def regime_of(
-    scene: Scene, force: CuttingForce | None, share: float, model: str | ForceModel
+    scene: Scene, force: CuttingForce | None, share: float, model: str | ForceModel | AnyLaw
 ) -> Regime:
     """Return the regime of a scene whose force by the model is known; "eq13" needs none.
 
@@ -203,11 +213,12 @@ def regime_of(
     values = (*scene.values(), touch, *terms)
     dominant, touching = apply(codes, values, (np.int8, bool), AT_ONCE)
     names = DOMINANCES if split else PARTS
-    return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share)
+    told = () if force is None else (force.law, force.laws, force.doubts)
+    return Regime(_labels(names, dominant), _labels(CONTACTS, touching), share, *told)
 
 
 def term_shares(
-    scene: Scene, force: CuttingForce, model: str | ForceModel
+    scene: Scene, force: CuttingForce, model: str | ForceModel | AnyLaw
 ) -> dict[str, FloatOrArray]:
     """Return the share of the force [-] that each term has, by the names that `classify` uses.
 
@@ -232,7 +243,7 @@ def term_shares(
     return dict(zip(names[1:], found, strict=True))
 
 
-def touching_toughness(model: str | ForceModel, alpha: FloatOrArray) -> FloatOrArray:
+def touching_toughness(model: str | ForceModel | AnyLaw, alpha: FloatOrArray) -> FloatOrArray:
     """Return g above which the wire touches the crack tip [-]: the model's own, or else 1.
 
     Examples
@@ -240,7 +251,8 @@ def touching_toughness(model: str | ForceModel, alpha: FloatOrArray) -> FloatOrA
     >>> touching_toughness("eq13", 2.0)
     1.0
     """
-    own = getattr(force_model("table" if is_chosen(model) else model), "touching_toughness", None)
+    contact = model.contact if isinstance(model, AnyLaw) else model
+    own = getattr(force_model("table" if is_auto(contact) else contact), "touching_toughness", None)
     return TOUCHING_TOUGHNESS if own is None else own(alpha)
 
 

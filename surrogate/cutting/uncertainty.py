@@ -19,9 +19,10 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import apply, quotient
 from surrogate.basics.records import Shown
-from surrogate.choosing.accuracy import contact_std, one_model
+from surrogate.choosing.accuracy import contact_std
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED
+from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import force_of
 from surrogate.cutting.gradient import force_gradient
@@ -63,6 +64,12 @@ class UncertainForce(Shown):
         know none, which does not mean that they are exact; nan outside a fitted model's domain.
     model : str
         Name of the model.
+    law : str
+        The law of dissipation; "auto" where the points have several.
+    laws : str or ndarray of str
+        That of each point.
+    doubts : tuple of str
+        What is to be doubted, in words, as in a `CuttingForce`.
 
     Examples
     --------
@@ -77,6 +84,9 @@ class UncertainForce(Shown):
     contributions: Mapping[str, FloatOrArray]
     model_std: FloatOrArray | None
     model: str
+    law: str = PROJECTED
+    laws: str | NDArray[np.str_] = PROJECTED
+    doubts: tuple[str, ...] = ()
 
 
 def propagate(
@@ -87,7 +97,7 @@ def propagate(
     extrapolate: bool = False,
     *,
     correlation: Correlations | None = None,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> UncertainForce:
     """Return the cutting force with its standard deviation, from those of the scene's quantities.
 
@@ -114,8 +124,9 @@ def propagate(
     correlation : mapping of (str, str) to float, optional
         Correlation of the errors of pairs of these quantities [-]; 0 for those left out. From
         an `Identification`, that of toughness and wear strength is its `correlation`.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `force_gradient`. Where
+        nobody knows the error of the law, `std` is without it, and `doubts` says so.
 
     Returns
     -------
@@ -165,23 +176,32 @@ def propagate(
     9.350 +- 0.332 N/m
     """
     require_scene(scene)
-    chosen = one_model(of_law(model, law), rtol)
+    by_law = parted(model, law, rtol, scene.values())
     errors = _checked(std)
     rho = correlation_matrix(list(errors), {} if correlation is None else correlation)
-    gradient = force_gradient(scene, chosen, extrapolate=extrapolate)
+    gradient = force_gradient(scene, model, rtol, extrapolate, law)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
         (np.zeros(scene.shape) if scene.shape else 0.0, *errors.values()),
     )
     signed = {name: _times(getattr(gradient, name), error) for name, error in errors.items()}
-    model_std = _model_std(chosen, scene)
+    stds = by_law.evaluate(_model_std)
+    model_std = None if stds is None else stds[0]
+    (total,) = by_law.evaluate(lambda one, part: (_total(one, part, extrapolate),))
     return UncertainForce(
-        force_of(scene, chosen, extrapolate=extrapolate).total,
+        _number(total),
         _combined(list(signed.values()), rho, model_std, scene.shape),
         {name: _number(np.abs(each)) for name, each in signed.items()},
         None if model_std is None else _number(model_std),
-        chosen.name,
+        gradient.model,
+        gradient.law,
+        gradient.laws,
+        gradient.doubts,
     )
+
+
+def _total(model: ForceModel, scene: tuple[Any, ...], extrapolate: bool) -> FloatOrArray:
+    return force_of(Scene(*scene), model, extrapolate=extrapolate).total
 
 
 def _checked(std: object) -> dict[str, FloatOrArray]:
@@ -241,9 +261,9 @@ def _times(slope: FloatOrArray, error: FloatOrArray) -> Any:
         return np.where(np.equal(error, 0.0), 0.0, np.multiply(slope, error))
 
 
-def _model_std(chosen: ForceModel, scene: Scene) -> Any:
+def _model_std(chosen: ForceModel, scene: tuple[Any, ...]) -> Any:
     """Return the force's standard deviation from those of A and B, or None where there are none."""
-    mu, gamma, radius, xi, wear, alpha = scene.values()
+    mu, gamma, radius, xi, wear, alpha = scene
     with np.errstate(all="ignore"):
         stds = contact_std(chosen, apply(quotient, (gamma, mu, radius)), alpha)
         if stds is None:
@@ -252,15 +272,15 @@ def _model_std(chosen: ForceModel, scene: Scene) -> Any:
         first = np.hypot(_times(stds[0], arc), _times(stds[1], load))
         if chosen.law == COUPLED:
             first = np.hypot(*_amplified(chosen, scene, first))
-        return first + np.zeros(scene.shape)
+        return (first + np.zeros(np.broadcast_shapes(*map(np.shape, scene))),)
 
 
-def _amplified(chosen: Any, scene: Scene, first: Any) -> tuple[Any, Any]:
+def _amplified(chosen: Any, scene: tuple[Any, ...], first: Any) -> tuple[Any, Any]:
     """Return the deviation of the first order times kappa, and that of kappa itself."""
-    mu, gamma, radius, xi, wear, alpha = scene.values()
+    mu, gamma, radius, xi, wear, alpha = scene
     load = apply(quotient, (gamma, mu, radius)), alpha, xi, np.divide(wear, mu)
     kappa = np.exp(chosen.amplification.log_factor(*load))
-    drag = np.add(*chosen.terms(*scene.values()))
+    drag = np.add(*chosen.terms(*scene))
     return first * kappa, drag * np.expm1(chosen.amplification.error(*load)) / np.sqrt(3.0)
 
 

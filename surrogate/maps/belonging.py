@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surrogate.choosing.by_name import force_model
-from surrogate.contact.closed_forms import ClosedForm
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import PROJECTED, AnyLaw, law_of
+from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
+from surrogate.cutting.force import force_of
 from surrogate.errors import InputError
 from surrogate.maps.axes import COORDINATES
 from surrogate.maps.points import relative_std, value_of
@@ -39,7 +41,8 @@ def require_the_same(points: MapPoints, made: MapRecord) -> None:
         If what the map fixes, or takes where nothing fixes it, differs by more than `SAME` and by
         more than two of the points' standard errors, or the law is another.
     """
-    if points.law is not None and points.law != (law := force_model(made.model).law):
+    law = _law_at(points, made)
+    if points.law not in (None, AUTO, law):
         raise InputError(
             f"{points.label} must be of the map's law, {law!r}, but its wear strength was "
             f"identified by the law {points.law!r}; draw the map by law={points.law!r}, or leave "
@@ -63,10 +66,23 @@ def require_the_same(points: MapPoints, made: MapRecord) -> None:
             )
 
 
+def _law_at(points: MapPoints, made: MapRecord) -> str:
+    """Return the law that a map has at points; theirs where it is one with the map's.
+
+    Where the law is chosen, "slip" and "coupled" differ by less than the error that will do.
+    """
+    if not isinstance(made.model, AnyLaw):
+        return law_of(made.model)
+    error: Any = force_of(points.scene, made.model, extrapolate=True).law_error
+    unknown = np.isnan(error)
+    same = unknown.all() if points.law == PROJECTED else not unknown.any()
+    return str(points.law) if same else AUTO
+
+
 def _taken(made: MapRecord) -> list[tuple[str, float]]:
     """Return what a map takes for quantities that nothing given depends on, if it matters."""
     given = [*made.fixed, made.x.name, made.y.name]
     touched = {quantity for name in given for quantity in COORDINATES[name].powers}
-    if isinstance(force_model(made.model), ClosedForm):
+    if isinstance(made.model, ClosedForm) or made.model in FORCE_MODELS:
         touched.add("stiffening_exponent")  # on which no closed form depends
     return [(name, value) for name, value in DEFAULTS.items() if name not in touched]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from surrogate.basics.checks import items
 from surrogate.basics.records import share
 from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import AnyLaw
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm, formula_name
 from surrogate.cutting.force import force_of
@@ -174,7 +175,7 @@ def _contact(record: MapRecord) -> Boundary:
     return Boundary("contact", CONTACTS, f"g = {value[0]}", f"g={value[1]}", exact, lines)
 
 
-def _texts(model: str | ForceModel) -> Mapping[str, tuple[str, str]]:
+def _texts(model: str | ForceModel | AnyLaw) -> Mapping[str, tuple[str, str]]:
     return _TEXT if model == SPLIT_MODEL else _PART_TEXT
 
 
@@ -191,7 +192,7 @@ def _term_sums(record: MapRecord) -> dict[str, Sum] | None:
     }
 
 
-def _part_sums(record: MapRecord, model: str | ForceModel) -> dict[str, Sum] | None:
+def _part_sums(record: MapRecord, model: str | ForceModel | AnyLaw) -> dict[str, Sum] | None:
     form = FORCE_MODELS.get(model) if isinstance(model, str) else model
     if not isinstance(form, ClosedForm):
         return None
@@ -207,7 +208,7 @@ def _part_sums(record: MapRecord, model: str | ForceModel) -> dict[str, Sum] | N
     }
 
 
-def _force_sum(record: MapRecord, model: str | ForceModel) -> Sum | None:
+def _force_sum(record: MapRecord, model: str | ForceModel | AnyLaw) -> Sum | None:
     parts = _part_sums(record, model)
     return None if parts is None else tuple(one for part in parts.values() for one in part)
 

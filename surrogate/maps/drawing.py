@@ -17,6 +17,7 @@ from surrogate.basics.figures import (
 )
 from surrogate.basics.picture_form import picture_form
 from surrogate.basics.records import number, share
+from surrogate.choosing.laws import AnyLaw
 from surrogate.contact.closed_forms import formula_name
 from surrogate.errors import InputError
 from surrogate.maps.axes import COORDINATES, MapAxis
@@ -158,24 +159,41 @@ def fill_error(ax: Axes, made: MapRecord, model: str) -> None:
 
 
 def hatch_outside(ax: Axes, made: MapRecord) -> Iterator[Any]:
-    """Hatch where the model does not hold; yield the handle for the legend."""
+    """Hatch where model or law are not known to hold; yield the handles for the legend."""
     outside = 1.0 - _whole(made, made.force.in_domain)
-    cells = outside[1:, 1:] * outside[1:, :-1] * outside[:-1, 1:] * outside[:-1, :-1]
-    if cells.any():  # single nodes, which rounding puts beyond an edge, have no area
-        hatched: Any = ax.contourf(
-            *_mesh(made),
-            _smooth(outside),
-            levels=[0.5, 2.0],
-            colors="none",
-            hatches=["////"],
-            zorder=0.5,
-        )
-        one_artist = hasattr(hatched, "set_edgecolor")  # since matplotlib 3.8
-        artists = [hatched] if one_artist else hatched.collections
-        for artist in artists:
-            artist.set_edgecolor(_HATCH)
-            artist.set_linewidth(0.0)
-        yield patch("outside the domain", "white", hatch="////", ec=_HATCH)
+    if _has_area(outside):
+        yield _hatch(ax, made, outside, "////", "outside the domain")
+    unknown = _whole(made, _law_is_unknown(made))
+    if _has_area(unknown) and _has_area(1.0 - unknown):  # of all the map `tell_fixed` says it
+        yield _hatch(ax, made, unknown * (1.0 - outside), "....", "projected law, error unknown")
+
+
+def _law_is_unknown(made: MapRecord) -> Any:
+    """Return where the law was to be chosen, and nobody knows the error of any."""
+    error = made.force.law_error
+    return np.isnan(error) if isinstance(made.model, AnyLaw) and error is not None else False
+
+
+def _has_area(mask: Array) -> bool:
+    """Return whether it is more than single nodes, such as rounding puts beyond an edge."""
+    return bool((mask[1:, 1:] * mask[1:, :-1] * mask[:-1, 1:] * mask[:-1, :-1]).any())
+
+
+def _hatch(ax: Axes, made: MapRecord, where: Array, hatch: str, label: str) -> Any:
+    hatched: Any = ax.contourf(
+        *_mesh(made),
+        _smooth(where),
+        levels=[0.5, 2.0],
+        colors="none",
+        hatches=[hatch],
+        zorder=0.5,
+    )
+    one_artist = hasattr(hatched, "set_edgecolor")  # since matplotlib 3.8
+    artists = [hatched] if one_artist else hatched.collections
+    for artist in artists:
+        artist.set_edgecolor(_HATCH)
+        artist.set_linewidth(0.0)
+    return patch(label, "white", hatch=hatch, ec=_HATCH)
 
 
 def _smooth(field: Array) -> Array:
@@ -197,6 +215,8 @@ def tell_fixed(ax: Axes, made: MapRecord) -> None:
         factor, unit = SHOWN_UNITS[one.unit]
         shown_unit = "" if unit == "-" else f" {unit}"
         words.append(f"${one.symbol}$ = {number(factor * value)}{shown_unit}")
+    if np.all(_law_is_unknown(made)):
+        words.append("projected law, error unknown")
     ax.annotate(
         ", ".join(words),
         (1.0, 0.0),

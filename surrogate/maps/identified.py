@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import shown
 from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import PROJECTED
 from surrogate.cutting.gradient import force_gradient
 from surrogate.errors import InputError
 from surrogate.identification.fit import Identification
@@ -170,7 +171,8 @@ def _with_stated(fit: Identification, scene: Scene) -> dict[tuple[str, str], flo
 def _shift(fit: Identification, scene: Scene, name: str) -> NDArray[np.float64]:
     """Return the change of both estimates with a stated quantity, to first order."""
     continued = is_continued(force_model(fit.model))
-    gradient = getattr(force_gradient(scene, fit.model, extrapolate=continued), name)
+    by_all = force_gradient(scene, fit.model, extrapolate=continued, law=PROJECTED)  # or its own
+    gradient = getattr(by_all, name)
     radii, places = np.unique(fit.wire_radius, return_inverse=True)
     slopes = np.broadcast_to(gradient, radii.shape)[places.reshape(-1)] * fit.cuts.weight
     design = fit.force_slopes(fit.wire_radius) * fit.cuts.weight[:, np.newaxis]

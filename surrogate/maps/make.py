@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from surrogate.basics.checks import SMALLEST, Quantity, mapping, one_number, shown
 from surrogate.basics.records import ReadOnly, html_table, number
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.by_name import AUTO
+from surrogate.choosing.laws import of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import force_of
 from surrogate.cutting.regimes import DOMINANT_SHARE, THRESHOLD, regime_of, term_shares
@@ -44,8 +45,8 @@ class RegimeMap(MapRecord):
         The axes with their nodes.
     fixed : mapping of str to float
         What else was given [SI].
-    model : str
-        Name of the force model that was asked for.
+    model : str, ForceModel or AnyLaw
+        The force model that was asked for, under its law.
     units : tuple of str
         Quantities that are 1 because only dimensionless groups were given: the units of the map.
     scene : Scene
@@ -127,8 +128,8 @@ def regime_map(
     fixed: Mapping[str, float] | None = None,
     model: str | ForceModel = "eq13",
     *,
-    rtol: float = 0.02,
-    law: str = PROJECTED,
+    rtol: float | None = None,
+    law: str = AUTO,
     scales: Sequence[str] = ("log", "log"),
     nodes: int = 201,
     threshold: float = DOMINANT_SHARE,
@@ -153,10 +154,14 @@ def regime_map(
     model : str, default "eq13"
         The force model, as in `cutting_force`. Outside its domain a fitted model is continued by
         its asymptotes; `in_domain` says where.
-    rtol : float, default 0.02
-        Relative error of the force that will do with "auto" [-].
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`.
+    rtol : float, optional
+        Relative error of the force that has to be met with "auto" [-]; by default 0.02 where it can
+        be had.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; the closed
+        forms, the default model among them, are of the law "projected". With "auto" each node has
+        a law of its own, `force.laws`, and is "projected" where no solution with friction and wear
+        is near: figures mark where, and boundaries between terms jump there.
     scales : pair of str, default ("log", "log")
         "log" or "linear", of x and of y.
     nodes : int, default 201
@@ -228,7 +233,7 @@ def regime_map(
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = scene_of(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share, wanted = one_number(MISS, miss), limit_names(limits)
-    model = of_law(model, law)
+    model = of_law(model, law, any_law=True)
     force = force_of(scene, model, rtol, extrapolate=True)
     regime = regime_of(scene, force, one_number(THRESHOLD, threshold), model)
     shares = term_shares(scene, force, model)

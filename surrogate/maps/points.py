@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.checks import Quantity, broadcast_shape, mapping, shown, text
 from surrogate.basics.records import ReadOnly
+from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import LAWS
 from surrogate.cutting.uncertainty import correlation_matrix
 from surrogate.errors import InputError
@@ -126,9 +127,9 @@ class MapPoints:
             checked[name] = error.checked(value)
             broadcast_shape((error.name, *NAMES), (checked[name], *self.scene.values()))
         correlation_matrix(list(checked), self.correlation)
-        if self.law is not None and self.law not in LAWS:
+        if self.law is not None and self.law not in (*LAWS, AUTO):
             raise InputError(
-                f"the law of map points must be one of {', '.join(LAWS)}, or None, but is "
+                f"the law of map points must be one of {', '.join(LAWS)}, {AUTO}, or None, but is "
                 f"{shown(self.law)}; choose one."
             )
         object.__setattr__(self, "std", ReadOnly(checked))

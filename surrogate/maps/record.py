@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surrogate.basics.elementwise import ratio
+from surrogate.choosing.laws import AnyLaw
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.cutting.regimes import Regime
@@ -32,7 +33,7 @@ class MapRecord:
     x: MapAxis
     y: MapAxis
     fixed: Mapping[str, float]
-    model: str | ForceModel
+    model: str | ForceModel | AnyLaw
     units: tuple[str, ...]
     scene: Scene
     force: CuttingForce

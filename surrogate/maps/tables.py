@@ -46,6 +46,7 @@ def _columns(made: MapRecord) -> dict[tuple[str, str], Any]:
         ("friction_share", ""): made.friction_share,
         ("wear_share", ""): made.wear_share,
         ("relative_error", ""): np.nan if error is None else error,
+        ("law", ""): force.laws,
         ("in_domain", ""): force.in_domain,
         ("dominant", ""): made.regime.dominant,
         ("contact", ""): made.regime.contact,
@@ -103,9 +104,11 @@ def map_dataset(made: MapRecord) -> xarray.Dataset:
 def map_summary(made: MapRecord) -> dict[str, Any]:
     """Return a map's regimes and boundaries as numbers and words."""
     regimes = np.unique(made.regime.dominant, return_counts=True)
+    laws = np.unique(made.force.laws, return_counts=True)
     total = made.regime.dominant.size  # type: ignore[union-attr]
     return {
         "model": str(made.model),
+        "laws": {str(n): int(c) / laws[1].sum() for n, c in zip(*laws, strict=True)},
         "x": _axis_record(made.x),
         "y": _axis_record(made.y),
         "fixed": dict(made.fixed),

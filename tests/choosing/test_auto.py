@@ -1,20 +1,14 @@
-"""The choice among models: what is evaluated, what is promised, what is refused."""
+"""The choice among models of one law: what is evaluated, what is promised, what is refused."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from made_up import truth
 
-from surrogate import (
-    AccuracyError,
-    DomainError,
-    InputError,
-    Scene,
-    contact_functions,
-    cutting_force,
-    dissipative_force,
-)
+import surrogate
+from surrogate import AccuracyError, DomainError, InputError, Scene, contact_functions
 from surrogate.choosing.auto import AutomaticTerms
 from surrogate.choosing.candidates import candidates
 from surrogate.contact.fitted import FittedModel
@@ -22,6 +16,9 @@ from surrogate.contact.fitted import FittedModel
 pytestmark = pytest.mark.usefixtures("installed")
 
 RADIUS = 1e-4
+
+cutting_force = partial(surrogate.cutting_force, law="projected")
+dissipative_force = partial(surrogate.dissipative_force, law="projected")
 
 
 def scene(g, alpha, xi, ratio):

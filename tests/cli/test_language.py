@@ -122,7 +122,8 @@ def test_units_as_people_write_them(text, capsys):
 
 
 def test_a_share_may_be_in_percent(capsys):
+    law = ["--law", "projected"]
     for rtol in ("5%", "5 %", "0.05"):
-        assert main(["force", *SCENE, "--wire-radius", "0.2mm", "--rtol", rtol]) == 0
+        assert main(["force", *SCENE, "--wire-radius", "0.2mm", "--rtol", rtol, *law]) == 0
     printed = capsys.readouterr().out
     assert printed == 3 * printed[: len(printed) // 3]

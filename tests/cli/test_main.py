@@ -9,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import asdict
 
+import numpy as np
 import pytest
 
 from surrogate import FORCE_MODELS, Scene, __version__, classify, cutting_force, models
@@ -124,12 +125,16 @@ def test_forces_and_regimes_are_by_default_those_of_the_library(capsys):
     record, force = json.loads(capsys.readouterr().out), cutting_force(scene)
     assert record["model"] == force.model
     assert [wire["total"] for wire in record["wires"]] == force.total.tolist()
-    assert [wire["relative_error"] for wire in record["wires"]] == force.relative_error.tolist()
+    assert [wire["relative_error"] for wire in record["wires"]] == [None] * 3  # that of the law
+    assert np.isnan(force.relative_error).all()
+    assert [wire["law"] for wire in record["wires"]] == ["projected"] * 3
+    assert record["notes"] == list(force.doubts)
+    assert record["warnings"] == []
     assert run(f"regime {wires} --json") == 0
     record = json.loads(capsys.readouterr().out)
     assert record["model"] == "auto"
     assert [wire["dominant"] for wire in record["wires"]] == classify(scene).dominant.tolist()
-    assert run(f"force {wires} --rtol 0.5") == 0
+    assert run(f"force {wires} --rtol 0.5 --law projected") == 0
     assert re.search(r"\d %  +yes\n", capsys.readouterr().out)
 
 

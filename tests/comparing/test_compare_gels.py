@@ -21,7 +21,7 @@ QUANTITIES = ("toughness", "wear_strength")
 
 def gel(seed, gamma=2.0, tau=12e3, model="eq13", std=None, mu=MU, **options):
     scene = Scene(mu, gamma, RADII, wear_strength=tau)
-    force = np.asarray(cutting_force(scene, model).total)
+    force = np.asarray(cutting_force(scene, model, law="projected").total)
     noise = 0.03 * force.mean() if std is None else std
     force = force + noise * np.random.default_rng(seed).standard_normal(force.size)
     return identify(RADII, force, mu, model=model, force_std=std, **options)
@@ -93,7 +93,7 @@ def test_a_gel_does_not_differ_from_itself():
 def test_a_limit_makes_an_interval_one_sided_and_not_a_difference():
     """Wires in the cleavage regime leave tau_w without an upper end, or hold it at 0."""
     scene = Scene(1e3, 50.0, RADII, wear_strength=1.0)
-    force = np.asarray(cutting_force(scene, "table", extrapolate=True).total)
+    force = np.asarray(cutting_force(scene, "table", extrapolate=True, law="projected").total)
     thin = identify(RADII, force, 1e3, model="table", force_std=0.05 * force)
     assert thin.wear_strength_interval[0] == 0.0
     made = both(thin, thin, "wear_strength")

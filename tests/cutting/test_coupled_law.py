@@ -102,7 +102,7 @@ def test_outside_the_solutions_auto_is_the_projected_law_with_an_unknown_error(c
     beyond = replace(SOLID, friction_coefficient=0.4)
     force = cutting_force(beyond, law="auto")
     assert np.all(kappa_of(coupled, beyond)[1] > 1.0)
-    assert np.array_equal(force.total, cutting_force(beyond).total)
+    assert np.array_equal(force.total, cutting_force(beyond, law="projected").total)
     assert np.unique(force.laws).tolist() == ["projected"]
     assert np.isnan(force.relative_error).all()
     assert np.isnan(force.law_error).all()
@@ -204,9 +204,14 @@ def test_without_its_file_the_law_is_refused_with_the_remedy(installed, tmp_path
     monkeypatch.setattr(surrogate.coupling.shipped, "folder_in_use", lambda: tmp_path)
     with pytest.raises(InputError, match=r"coupled\.npz"):
         cutting_force(SOLID, law="coupled")
-    with pytest.raises(InputError, match="closed form"):
-        cutting_force(SOLID, "table", law="auto")
-    with pytest.raises(InputError, match="one of projected, slip, coupled"):
-        force_gradient(SOLID, law="auto")
-    assert cutting_force(SOLID, "eq13", law="auto").law == "projected"
+    for model in ("auto", "table"):
+        force = cutting_force(SOLID, model)
+        assert np.array_equal(force.total, cutting_force(SOLID, model, law="projected").total)
+        assert np.isnan(force.law_error).all()
+        assert len(force.doubts) == 1
+    assert force_gradient(SOLID) == replace(
+        force_gradient(SOLID, law="projected"),
+        laws=np.full(3, "projected"),
+        doubts=force.doubts,
+    )
     assert under_coupled.__name__ == "coupled"

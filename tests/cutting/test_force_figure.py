@@ -16,10 +16,9 @@ GEL = Scene(685.0, 1.6, [0.1e-3, 0.4e-3], 0.1, 7750.0)
 SCENE = ["--shear-modulus", "685Pa", "--toughness", "1.6J/m2", "--wear-strength", "7.75kPa"]
 
 
-def drawn(scene=GEL, **options):
-    return plot_force(
-        scene, Figure(figsize=(3.4, 2.9), layout="constrained").add_subplot(), **options
-    )
+def drawn(scene=GEL, law="projected", **options):
+    axes = Figure(figsize=(3.4, 2.9), layout="constrained").add_subplot()
+    return plot_force(scene, axes, law=law, **options)
 
 
 def line(ax, label):
@@ -34,13 +33,14 @@ def test_line_parts_and_wires_are_the_models(model, thickness):
     label = "cheapest model exact enough" if model == "auto" else f"model {model}"
     x, y = line(ax, label).get_data()
     shown = np.isfinite(y)
-    wanted = cutting_force(Scene(685.0, 1.6, 1e-3 * x[shown], 0.1, 7750.0), model)
+    law = "projected"
+    wanted = cutting_force(Scene(685.0, 1.6, 1e-3 * x[shown], 0.1, 7750.0), model, law=law)
     np.testing.assert_allclose(y[shown], size * wanted.total, rtol=1e-12)
     at, force = line(ax, "the wires").get_data()
     np.testing.assert_allclose(at, [0.1, 0.4])
-    np.testing.assert_allclose(force, size * cutting_force(GEL, model).total, rtol=1e-12)
+    np.testing.assert_allclose(force, size * cutting_force(GEL, model, law=law).total, rtol=1e-12)
     stacked = [one.get_paths()[0].vertices[:, 1].max() for one in ax.collections[:3]]
-    parts = cutting_force(Scene(685.0, 1.6, 1e-3 * x[-1], 0.1, 7750.0), model)
+    parts = cutting_force(Scene(685.0, 1.6, 1e-3 * x[-1], 0.1, 7750.0), model, law=law)
     heights = np.cumsum([parts.cleavage, parts.friction, parts.wear])
     np.testing.assert_allclose(stacked[2], size * heights[2], rtol=1e-9)
     assert stacked[0] == pytest.approx(size * 1.6)
@@ -54,7 +54,7 @@ def test_line_parts_and_wires_are_the_models(model, thickness):
 def test_the_band_is_the_bound_of_the_model():
     ax = drawn()
     (band,) = [one for one in ax.collections if "its error" in str(one.get_label())]
-    wanted = cutting_force(Scene(685.0, 1.6, 0.432e-3, 0.1, 7750.0))
+    wanted = cutting_force(Scene(685.0, 1.6, 0.432e-3, 0.1, 7750.0), law="projected")
     top = band.get_paths()[0].vertices[:, 1].max()
     assert top == pytest.approx(wanted.total * (1.0 + wanted.relative_error), rel=1e-9)
     assert not [one for one in drawn(model="eq13").collections if "error" in str(one.get_label())]

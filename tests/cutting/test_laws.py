@@ -28,11 +28,13 @@ def test_slip_takes_the_slip_arc_and_load_where_projected_takes_their_projection
         assert force.friction == pytest.approx(2.0 * GEL.wire_radius * 100.0 * load, rel=1e-13)
 
 
-def test_the_default_is_the_projected_law_to_the_last_bit(installed):
-    for model in ("auto", "table", "eq13"):
-        plain, named = cutting_force(GEL, model), cutting_force(GEL, model, law="projected")
-        assert np.array_equal(plain.total, named.total)
-        assert plain.law == named.law == "projected"
+def test_closed_forms_are_of_the_projected_law_whether_it_is_named_or_not(installed):
+    plain, named = (cutting_force(GEL, "eq13", **law) for law in ({}, {"law": "projected"}))
+    assert plain == named
+    assert (plain.law, plain.law_error, plain.doubts) == ("projected", None, ())
+    assert classify(GEL, model="eq13") == classify(GEL, model="eq13", law="projected")
+    made = surrogate.regime_map("g", "xi", ((0.1, 10.0), (0.1, 10.0)), nodes=3)
+    assert (made.model, made.force.law) == ("eq13", "projected")
 
 
 def test_slip_by_auto_is_the_table_with_its_bound(installed):
@@ -51,7 +53,8 @@ def test_slip_by_auto_is_the_table_with_its_bound(installed):
 
 
 def test_slip_exceeds_projected(installed):
-    assert np.all(cutting_force(GEL, law="slip").total > cutting_force(GEL, "table").total)
+    slip, projected = (cutting_force(GEL, "table", law=law) for law in ("slip", "projected"))
+    assert np.all(slip.total > projected.total)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -71,7 +74,8 @@ def test_slopes_of_slip_are_those_of_its_force(installed, model, name):
 def test_every_call_knows_the_law(installed):
     scene = replace(GEL, wire_radius=1e-3)
     assert classify(scene, law="slip") != classify(scene, model="eq13")
-    assert surrogate.transition_radius(scene, law="slip") != surrogate.transition_radius(scene)
+    by_law = [surrogate.transition_radius(scene, law=law) for law in ("projected", "slip")]
+    assert by_law[0] != by_law[1]
     spread = surrogate.propagate(scene, {"toughness": 0.1}, law="slip")
     assert spread.total == cutting_force(scene, law="slip").total
     slip = surrogate.dissipative_force(1.0, 3.0, 0.1, 1.0, law="slip")

@@ -31,7 +31,7 @@ radius_sets = st.lists(st.integers(1, 10_000), min_size=3, max_size=12, unique=T
 
 def forces(radius, toughness, wear_strength, friction=0.0, modulus=MODULUS, model="eq13"):
     scene = Scene(modulus, toughness, radius, friction, wear_strength)
-    return np.asarray(cutting_force(scene, model=model).total)
+    return np.asarray(cutting_force(scene, model=model, law="projected").total)
 
 
 def test_paper_experiment():

@@ -38,7 +38,7 @@ def test_models_that_are_not_exact_enough_do_not_stop_an_identification(installe
     errors = dict.fromkeys(("eq13", "power-law", "gp"), 0.5) | {"table": 0.3}
     monkeypatch.setattr(Bounds, "of_force", lambda self, model: errors[model])
     scene = Scene(1000.0, 2.0, np.geomspace(0.1e-3, 2e-3, 6), 0.0, 500.0, 3.0)
-    force = cutting_force(scene, "table").total
+    force = cutting_force(scene, "table", law="projected").total
     given = {"stiffening_exponent": 3.0, "friction_coefficient": 0.0, "force_std": 0.01 * force}
     assert identify(scene.wire_radius, force, 1000.0, **given).model == "table"
     with pytest.raises(AccuracyError, match=r"rtol = 0\.02"):

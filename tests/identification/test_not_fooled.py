@@ -17,7 +17,7 @@ MODULUS = 3e4
 
 def forces(radius, toughness=2.0, wear_strength=7e3, modulus=MODULUS, friction=0.0):
     scene = Scene(modulus, toughness, radius, friction, wear_strength)
-    return np.asarray(cutting_force(scene, "table", extrapolate=True).total)
+    return np.asarray(cutting_force(scene, "table", extrapolate=True, law="projected").total)
 
 
 NOISY = forces(RADII) * (1.0 + NOISE)

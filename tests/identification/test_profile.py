@@ -32,7 +32,7 @@ def known_models(elements, bump):
 
 def forces(radius, toughness, wear_strength, friction=0.0, model="elements"):
     scene = Scene(MODULUS, toughness, radius, friction, wear_strength)
-    return np.asarray(cutting_force(scene, model).total)
+    return np.asarray(cutting_force(scene, model, law="projected").total)
 
 
 # The minimum

@@ -67,7 +67,7 @@ def drawn(model, random):
     number = int(random.integers(RADII[0], RADII[1] + 1))
     radius = middle * np.geomspace(spread**-0.5, spread**0.5, number)
     scene = surrogate.Scene(modulus, toughness, radius, friction, wear, alpha)
-    exactly = surrogate.cutting_force(scene, model).total
+    exactly = surrogate.cutting_force(scene, model, law="projected").total
     noise = math.exp(random.uniform(*np.log(NOISE)))
     known = bool(random.integers(2))
     std = noise * (exactly if known else np.full(number, exactly.mean()))
