@@ -191,7 +191,7 @@ class LawfulTerms:
         friction, worn, holds, number, _, fit, of_law = first
         kappa, own, larger = self._amplified(scene, first, place)
         error = fit * larger + own
-        better = (error <= self.rtol) | ~(fit + of_law <= error)
+        better = (error <= self.rtol) | np.logical_not(fit + of_law <= error)
         terms = friction * kappa, worn * kappa, holds, number, 2, error, 0.0
         if np.ndim(better) == 0:
             return terms if better else first

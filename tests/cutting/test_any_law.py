@@ -20,6 +20,7 @@ from surrogate import (
     regime_map,
     transition_radius,
 )
+from surrogate.choosing.by_name import force_model
 from surrogate.cli.main import main
 from surrogate.maps.belonging import require_the_same
 from surrogate.maps.figure import save_regime_map
@@ -249,3 +250,17 @@ def test_the_commands_print_law_error_and_doubt(coupled, capsys):
     said = capsys.readouterr().out
     assert "law" in said
     assert "points the error of the force is unknown" in said
+
+
+def test_one_scene_has_the_law_of_the_same_scene_among_others():
+    dice = np.random.default_rng(8)
+    limits = force_model("table").limits
+    alpha = dice.uniform(2.4, 9.0, 300)
+    g = np.exp(dice.uniform(np.log(limits.g[0] * 1.01), np.log(30.0), 300))
+    wear, xi = 10 ** dice.uniform(-3, 0, 300), 10 ** dice.uniform(-4, -1.3, 300)
+    many = cutting_force(Scene(1.0, g, 1.0, xi, wear, alpha), "table")
+    for i in range(300):
+        one = cutting_force(Scene(1.0, g[i], 1.0, xi[i], wear[i], alpha[i]), "table")
+        assert one.laws == many.laws[i]
+        assert one.total == pytest.approx(many.total[i], rel=1e-12)
+    assert set(many.laws) == {"projected", "slip", "coupled"}
