@@ -70,6 +70,7 @@ def pair(random, apart=(0.0, 0.0), exact=False):
                 "stiffening_exponent": alphas[i],
                 "force_std": std if known or exact else None,
                 "model": MODEL,
+                "law": "projected",
             }
         )
     if xi_std:

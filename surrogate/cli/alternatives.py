@@ -8,15 +8,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict
 from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
+from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import LAWS, PROJECTED
 from surrogate.contact.base import ForceModel
+from surrogate.contact.fitted import FittedModel
+from surrogate.errors import DomainError, InputError
 from surrogate.identification.fit import Identification, identify
+from surrogate.identification.friction import SUPPOSED
 from surrogate.inference.inputs import NOTHING_KNOWN
 from surrogate.reading.material import Material
 
-__all__ = ["alternatives_record", "alternatives_text"]
+__all__ = ["alternatives_record", "alternatives_text", "friction_records"]
 
 Intervals = tuple[tuple[float, float], ...]
 
@@ -44,22 +51,55 @@ def alternatives_record(fit: Identification, material: Material) -> dict[str, An
     >>> fit = identify(radius, force, 685.0)
     >>> record = alternatives_record(fit, Material(work_of_fracture=7e3))
     >>> [one["assumption"] for one in record["alternatives"]]
-    ['Eq. (13)', 'tau_w = W_f = 7 kPa']
+    ['Eq. (13)', 'law slip', 'tau_w = W_f = 7 kPa']
     """
     if fit.profile is None or fit.model == PAPER or fit.known != NOTHING_KNOWN:
         return {}
-    paper = _again(fit, PAPER)
+    paper = _again(fit, PAPER, PROJECTED)
     alternatives = [_row("Eq. (13)", paper, None)]
     verdicts: list[str] = []
+    for law in LAWS:
+        if law != fit.law and isinstance(force_model(fit.model), FittedModel):
+            with suppress(InputError):  # the models in use do not know it, or not these loads
+                other = _again(fit, force_model(fit.model).name, law)
+                alternatives.append(_row(f"law {law}", other, None))
     if (gamma := material.pure_shear_toughness) is not None and gamma > 0.0:
-        bounded = _again(fit, fit.model, toughness_max=gamma)
-        alternatives.append(_row(f"Gamma_o <= Gamma = {number(gamma)} J/m2", bounded, fit))
+        words = f"Gamma_o <= Gamma = {number(gamma)} J/m2"
+        alternatives += _rows(words, fit, verdicts, toughness_max=gamma)
         verdicts.extend(_of_toughness(fit.profile.toughness_intervals, gamma))
     if (work := material.work_of_fracture) is not None and work > 0.0:
-        fixed = _again(fit, fit.model, wear_strength=work)
-        alternatives.append(_row(f"tau_w = W_f = {number(1e-3 * work)} kPa", fixed, fit))
+        words = f"tau_w = W_f = {number(1e-3 * work)} kPa"
+        alternatives += _rows(words, fit, verdicts, wear_strength=work)
         verdicts.extend(_of_wear(fit.profile.wear_strength_intervals, work))
     return {"alternatives": alternatives, "verdicts": verdicts}
+
+
+def _rows(
+    words: str, fit: Identification, verdicts: list[str], **known: float
+) -> Iterator[dict[str, Any]]:
+    """Yield the same law with something known, or say that its solutions do not reach there."""
+    try:
+        yield _row(words, _again(fit, fit.model, fit.law, **known), fit)
+    except DomainError:
+        verdicts.append(f"With {words} some cuts are beyond what coupled solutions reach")
+
+
+def friction_records(fit: Identification) -> list[dict[str, Any]]:
+    """Return what other friction coefficients would make of forces that have a modulus.
+
+    Examples
+    --------
+    >>> fit = identify([1e-4, 2e-4, 4e-4, 5e-4], [4.7, 7.9, 13.9, 17.2], 30e3, model="eq13")
+    >>> [record["fits"] for record in friction_records(fit)]
+    [True, False]
+    """
+    if "shear_modulus" in fit.assumed:
+        return []
+    records = []
+    for xi in SUPPOSED:
+        with suppress(DomainError):  # where coupled solutions do not reach with this friction
+            records.append(asdict(fit.with_friction(xi)))
+    return records
 
 
 def alternatives_text(record: Mapping[str, Any]) -> str:
@@ -83,10 +123,12 @@ def alternatives_text(record: Mapping[str, Any]) -> str:
 def _remark(one: Mapping[str, Any]) -> str:
     if one["model"] == PAPER:
         return "another model"
+    if one["assumption"] == f"law {one['law']}":
+        return "another law"
     return {None: UNKNOWN, True: "possible", False: "excluded"}[one["admitted"]]
 
 
-def _again(fit: Identification, model: str | ForceModel, **known: Any) -> Identification:
+def _again(fit: Identification, model: str | ForceModel, law: str, **known: Any) -> Identification:
     cuts = fit.cuts
     return identify(
         cuts.wire_radius,
@@ -101,6 +143,7 @@ def _again(fit: Identification, model: str | ForceModel, **known: Any) -> Identi
         force_std=cuts.force_std,
         model=model,
         confidence=fit.confidence,
+        law=law,
         **known,
     )
 
@@ -118,6 +161,7 @@ def _row(words: str, other: Identification, free: Identification | None) -> dict
     return {
         "assumption": words,
         "model": str(other.model),
+        "law": other.law,
         "toughness": other.toughness,
         "toughness_interval": other.toughness_interval,
         "wear_strength": other.wear_strength,

@@ -127,6 +127,19 @@ def add_law_option(
     )
 
 
+def add_identified_law_option(command: argparse.ArgumentParser) -> None:
+    """Add the law of an identification, which is one for all cuts of all gels."""
+    command.add_argument(
+        "--law",
+        choices=("auto", "projected", "slip", "coupled"),
+        default="auto",
+        help="law of friction and wear that toughness and wear strength are to belong to. auto: "
+        "coupled where its solutions reach to all cuts, else projected, and the answer says which "
+        "and why; projected: the paper's Eq. (S2); slip: the balance of energy to first order; "
+        "coupled: friction and wear act on the gel (default auto)",
+    )
+
+
 def add_extrapolate_option(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--extrapolate",

@@ -14,6 +14,8 @@ from typing import Any
 
 from surrogate.basics.files import check_outputs, write_csv
 from surrogate.basics.records import table
+from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.common import DOUBTED, Record, print_record
 from surrogate.cli.identification_text import identification_record, identification_text
 from surrogate.cli.identify import (
@@ -27,7 +29,8 @@ from surrogate.comparing.difference import Difference
 from surrogate.comparing.gels import Comparison, GelPair, compare_gels
 from surrogate.errors import InputError
 from surrogate.identification.fit import Identification
-from surrogate.identification.summary import quantity_ranges
+from surrogate.identification.summary import law_in_words, quantity_ranges
+from surrogate.reading.material import Material
 from surrogate.reading.measurements import Measurements
 from surrogate.version import __version__
 
@@ -59,10 +62,13 @@ def run_identify(options: argparse.Namespace) -> int:
         save_gels(comparison.gels, options.plot)
     if options.csv:
         _write(gels, options.csv)
+    first = next(iter(gels.values())).fit
     record = {
         "version": __version__,
         "confidence": options.confidence,
-        "model": str(next(iter(gels.values())).fit.model),
+        "model": force_model(first.model).name,
+        "law": first.law,
+        "law_words": law_in_words(first),
         "gels": {name: gel.record for name, gel in gels.items()},
         "comparisons": [_pair_record(pair, comparison) for pair in comparison.pairs],
         "comparisons_rest_on": list(comparison.rests_on),
@@ -78,11 +84,10 @@ def _gels(options: argparse.Namespace) -> dict[str, _Gel]:
     read = list(_tables(options))
     names = _names([(name, file) for name, file, _ in read])
     gels = {}
-    for number, (name, (_, file, measurements)) in enumerate(zip(names, read, strict=True)):
-        try:
-            fit, material = identified(of_gel(options, number, len(read)), measurements)
-        except InputError as error:
-            raise InputError(f"{name}: {error}") from None
+    identifications = _identified(options, names, [cuts for _, _, cuts in read])
+    for name, (_, file, measurements), (fit, material) in zip(
+        names, read, identifications, strict=True
+    ):
         record = {
             "file": os.path.basename(os.path.normpath(file)),
             "notes": list(measurements.notes),
@@ -93,6 +98,27 @@ def _gels(options: argparse.Namespace) -> dict[str, _Gel]:
         }
         gels[name] = _Gel(file, measurements, fit, record)
     return gels
+
+
+def _identified(
+    options: argparse.Namespace, names: Sequence[str], read: Sequence[Measurements]
+) -> list[tuple[Identification, Material]]:
+    """Return what each gel says, all under one law, without which none can be compared."""
+    fits = []
+    for number, (name, cuts) in enumerate(zip(names, read, strict=True)):
+        try:
+            fits.append(identified(of_gel(options, number, len(read)), cuts))
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+    if len({fit.law for fit, _ in fits}) < 2:
+        return fits
+    first = next(i for i, (fit, _) in enumerate(fits) if fit.law == PROJECTED)
+    why = f"one law for all gels, and of {names[first]} {fits[first][0].law_reason}"
+    common = argparse.Namespace(**{**vars(options), "law": PROJECTED})
+    return [
+        (replace(fit, law_reason=why), material)
+        for fit, material in _identified(common, names, read)
+    ]
 
 
 def _tables(options: argparse.Namespace) -> Iterator[tuple[str, str, Measurements]]:
@@ -169,7 +195,8 @@ def _text(record: Record, gels: Mapping[str, _Gel], verbose: bool) -> str:
     against = [one for name, gel in gels.items() for one in _against(name, gel)]
     parts = ["\n".join(map(_wrapped, against)), _results(record, gels)]
     parts.append("\n".join(_wrapped(f"{one['answer']}.") for one in record["comparisons"]))
-    parts.append("\n".join(_wrapped(f"{one}.") for one in record["comparisons_rest_on"]))
+    resting = [record["law_words"], *(f"{one}." for one in record["comparisons_rest_on"])]
+    parts.append("\n".join(map(_wrapped, resting)))
     parts.append("\n".join(_wrapped(one) for name, gel in gels.items() for one in _said(name, gel)))
     if verbose:
         parts += [f"{name}\n\n{identification_text(gel.record)}" for name, gel in gels.items()]
@@ -194,7 +221,8 @@ def _results(record: Record, gels: Mapping[str, _Gel]) -> str:
         rows.append((name, *ranges, str(gel.fit.force.size), str(doubts) if doubts else "none"))
     percent = f"{100.0 * record['confidence']:.4g} %"
     header = ("Gel", "Gamma_o [J/m2]", "tau_w [kPa]", "cuts", "doubts")
-    return f"{table(header, rows)}\nWith {percent} intervals, model {record['model']}."
+    by = f"model {record['model']}, law {record['law']}"
+    return f"{table(header, rows)}\nWith {percent} intervals, {by}."
 
 
 def _against(name: str, gel: _Gel) -> Iterator[str]:
@@ -239,7 +267,8 @@ def _write(gels: Mapping[str, _Gel], file: str) -> None:
     columns["doubts", ""] = ["; ".join(record["warnings"]) for record in records]
     first = next(iter(gels.values())).fit
     about = [
-        f"several gels by wirecut identify {__version__}, model {first.model}",
+        f"several gels by wirecut identify {__version__}, model {force_model(first.model).name}, "
+        f"law {first.law}",
         f"low and high are the ends of {100.0 * first.confidence:.4g} % intervals",
     ]
     write_csv(file, columns, about)

@@ -10,14 +10,12 @@ from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.choosing.by_name import force_model
-from surrogate.choosing.laws import PROJECTED
-from surrogate.cli.alternatives import alternatives_record, alternatives_text
+from surrogate.cli.alternatives import alternatives_record, alternatives_text, friction_records
 from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
 from surrogate.cutting.transition_radius import fracto_cohesive_transition_radius
 from surrogate.identification.doubts import exactness
 from surrogate.identification.fit import Identification
-from surrogate.identification.friction import SUPPOSED
 from surrogate.identification.open_questions import wire_in_words
 from surrogate.identification.summary import (
     against_use,
@@ -137,6 +135,8 @@ def identification_record(fit: Identification, material: Material, example: bool
         "rests_on": rests_on(fit),
         "model": str(fit.model),
         "law": fit.law,
+        "law_reason": fit.law_reason,
+        "law_error": fit.law_error,
         "friction_coefficient": fit.friction_coefficient,
         "shear_modulus": fit.shear_modulus,
         "shear_modulus_std": fit.shear_modulus_std or None,
@@ -162,7 +162,7 @@ def identification_record(fit: Identification, material: Material, example: bool
         "wear_strength_limited_by": fit.wear_strength_limited_by,
         "contributions": dict(fit.contributions),
         "friction_sensitivity": fit.friction_sensitivity,
-        "with_friction": _with_friction(fit),
+        "with_friction": friction_records(fit),
         "covariance": fit.covariance.tolist(),
         "correlation": fit.correlation,
         "r_squared": fit.r_squared,
@@ -177,13 +177,6 @@ def identification_record(fit: Identification, material: Material, example: bool
         **alternatives,
         **({} if fit.has_scatter else unknown),
     }
-
-
-def _with_friction(fit: Identification) -> list[Record]:
-    """Return what other friction coefficients would make of forces that have a modulus."""
-    if "shear_modulus" in fit.assumed:
-        return []
-    return [asdict(fit.with_friction(xi)) for xi in SUPPOSED]
 
 
 _ESTIMATES = ("toughness", "wear_strength")
@@ -279,7 +272,7 @@ def _identified_wires(fit: Identification) -> list[Record]:
     if fit.is_physical and "shear_modulus" not in fit.assumed:
         continued = is_continued(force_model(fit.model))  # as the identification itself does
         scene = fit.scene(fit.wire_radius)
-        classes = classify(scene, model=fit.model, extrapolate=continued, law=PROJECTED)
+        classes = classify(scene, model=fit.model, extrapolate=continued, law=fit.law)
         regime = {"dominant": classes.dominant, "contact": classes.contact}
     return wire_rows(
         wire_radius=fit.wire_radius,

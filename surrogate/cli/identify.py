@@ -13,7 +13,7 @@ from surrogate.basics.files import check_outputs, model_file
 from surrogate.cli.common import (
     DOUBTED,
     add_friction_and_stiffening,
-    add_law_option,
+    add_identified_law_option,
     add_model_option,
     print_record,
     quantity,
@@ -158,7 +158,7 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     )
     add_model_option(command)
     command.set_defaults(rtol=None)
-    add_law_option(command)
+    add_identified_law_option(command)
     add(
         "--confidence",
         type=share,

@@ -11,6 +11,7 @@ from surrogate.basics.checks import mapping, one_number, shown
 from surrogate.basics.digits import rounded
 from surrogate.basics.records import ReadOnly, html_table
 from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import PROJECTED
 from surrogate.comparing.difference import Difference, alike, difference_of
 from surrogate.comparing.evidence import QUANTITIES, evidence_of
 from surrogate.errors import InputError
@@ -235,7 +236,8 @@ def _checked(identifications: object) -> dict[str, Identification]:
             if theirs[0] != theirs[1]:
                 raise InputError(
                     f"gels must be identified under one {what}, but {first} is by {theirs[0]!r} "
-                    f"and {name} by {theirs[1]!r}; identify all with the same."
+                    f"and {name} by {theirs[1]!r}; identify all with "
+                    f"{'law=' + repr(PROJECTED) if what == 'law' else 'the same'}."
                 )
     return gels
 

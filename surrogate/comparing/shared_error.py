@@ -12,7 +12,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.choosing.by_name import force_model
 from surrogate.identification.fit import Identification
 from surrogate.inference.continuation import CORRELATION_LENGTH, ContactError, contact_error
 
@@ -62,6 +61,12 @@ def covariance_between(one: Identification, other: Identification) -> Array:
         nothing = nothing + _between(estimators, both * (np.outer(*arc) + np.outer(*load)))
     near = np.outer(worn * error.arc, worn2 * error2.arc)
     near = near + np.outer(friction * error.load, friction2 * error2.load)
+    drag = worn + friction, worn2 + friction2
+    if error.factor is not None and error2.factor is not None:
+        near = near + np.outer(drag[0] * error.factor, drag[1] * error2.factor)
+    if error.factor_drift is not None and error2.factor_drift is not None:
+        drift = np.outer(drag[0] * error.factor_drift, drag[1] * error2.factor_drift)
+        nothing = nothing + _between(estimators, drift)
     return nothing + _between(estimators, together * near)
 
 
@@ -71,7 +76,7 @@ def _between(estimators: list[Array], forces: Array) -> Array:
 
 def _errors(fit: Identification) -> tuple[Array, ContactError, Array, Array] | None:
     """Return g, the model's relative errors there, and wear and friction that they act on."""
-    model, misfit = force_model(fit.model), fit.misfit
+    model, misfit = fit.tangent, fit.misfit
     g = np.asarray(fit.dimensionless_toughness)
     if fit.scale is None or not np.all(g > 0.0):
         return None

@@ -119,6 +119,16 @@ class Amplification:
             where(free, by_w / (1.0 + wear), 0.0),
         )
 
+    def load_slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any]:
+        """Return ln kappa and its derivatives by xi and tau_w/mu, 0 beyond what is known."""
+        variables, free = self._at(g, alpha, xi, wear)
+        _, _, by_xi, by_w = self.polynomial.derivatives
+        return (
+            self.polynomial(*variables),
+            where(free, by_xi(*variables), 0.0),
+            where(free, by_w(*variables) / (1.0 + wear), 0.0),
+        )
+
     def share(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return the load over the largest one that is known there; infinite outside g and alpha.
 
@@ -185,6 +195,33 @@ class Amplification:
         inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
         inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
         return inside & (x + log_touch(self.touch, y) >= self._log_lowest)
+
+    def drift(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
+        """Return how far ln kappa of the nearest load and g that are known may be off beyond them.
+
+        Over the load that is not reached it may go on at the largest rate of the cell, and so for
+        each factor e in g; 0 where kappa is known, infinite at alphas where it is not.
+        """
+        at = self._place(g, alpha)
+        x, y = self._clamped(*at)
+        size, direction = load_of(xi, wear, self.largest)
+        whole = self._of_cell(self.growth, g, alpha) * (xi + 0.1 * _log1p(wear))
+        with np.errstate(all="ignore"):
+            left = np.maximum(size - self.reach_at(x, y, direction), 0.0) / size
+            short = self._log_lowest - (at[0] + log_touch(self.touch, at[1]))
+            apart = np.maximum(np.abs(at[0] - x), np.maximum(short, 0.0))
+            drift = np.where(at[1] == y, whole * (left + apart), np.inf)
+        return np.where(np.equal(size, 0.0), 0.0, drift)
+
+    @property
+    def exponents(self) -> tuple[float, float]:
+        """The smallest and the largest alpha at which kappa is known."""
+        low, high = self._ends[1]
+        return float(np.exp(low)), float(np.exp(high))
+
+    def near_error(self, g: Any, alpha: Any) -> Any:
+        """Return the bound of the error of ln kappa in the nearest cell, whatever the load."""
+        return self._of_cell(self.errors, g, alpha)
 
     def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         y = log(alpha)

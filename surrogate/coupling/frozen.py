@@ -43,9 +43,33 @@ class FrozenLoad(CoupledModel):
         load, slopes = self.slip.normal_load(g, alpha), self.slip.normal_load_slopes(g, alpha)
         return self._slopes_of(load, slopes, g, alpha)
 
-    def own_error(self, g: Any, alpha: Any) -> Any:
-        """Return the bound of the relative error of kappa [-]; nan where it is not known."""
-        return np.expm1(self.amplification.error(g, alpha, self.friction, self.relative_wear))
+    def linearised(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return A and xi B of a force linear in tau_w that has the law's value and slope here."""
+        load = self.friction, self.relative_wear
+        log_kappa, _, slope = self.amplification.load_slopes(g, alpha, *load)
+        kappa, arc = exp(log_kappa), self.slip.arc(g, alpha)
+        rubbed = self.friction * self.slip.normal_load(g, alpha) if self.friction else 0.0
+        grown = slope * (self.relative_wear * arc + rubbed)
+        return kappa * (arc + grown), kappa * (rubbed - self.relative_wear * grown)
+
+    def friction_slope(self, g: Any, alpha: Any) -> Any:
+        """Return the derivative of tau_w/mu A + xi B by xi: that of kappa counts as well."""
+        load = self.friction, self.relative_wear
+        log_kappa, slope, _ = self.amplification.load_slopes(g, alpha, *load)
+        arc, pressed = self.slip.arc(g, alpha), self.slip.normal_load(g, alpha)
+        drag = self.relative_wear * arc + self.friction * pressed
+        return exp(log_kappa) * (pressed + slope * drag)
+
+    def own_error(self, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return the bound of the relative error of kappa, and what comes on top beyond its reach.
+
+        Both 0 without any load, where kappa is 1.
+        """
+        load = self.friction, self.relative_wear
+        unloaded = self.friction == 0.0 and self.relative_wear == 0.0
+        near = np.expm1(self.amplification.near_error(g, alpha)) * (not unloaded)
+        with np.errstate(over="ignore"):
+            return near, np.expm1(self.amplification.drift(g, alpha, *load))
 
     def reaches(self, g: Any, alpha: Any) -> Any:
         """Return whether coupled solutions reach to the load."""

@@ -205,7 +205,7 @@ def _out_of_range(fit: Estimate) -> Iterator[str]:
     if not np.any(outside):
         return
     radii = ", ".join(f"{1e3 * radius:.3g}" for radius in np.unique(fit.wire_radius[outside]))
-    error = contact_error(model, g[outside], fit.stiffening_exponent)
+    error = contact_error(fit.tangent, g[outside], fit.stiffening_exponent)
     assert error is not None
     share = 100.0 * float(np.max(np.hypot(error.arc, error.arc_drift)))
     yield (

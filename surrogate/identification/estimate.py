@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from surrogate.basics.checks import LARGEST, Quantity
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
+from surrogate.coupling.frozen import frozen
+from surrogate.coupling.model import CoupledModel
 from surrogate.cutting.transition_radius import (
     transition_radius_of,
     wear_transition_radius_of,
@@ -80,6 +82,8 @@ class Estimate:
     sample: NDArray[np.int64] | None = None
     scatter: Scatter | None = None
     assumed: tuple[str, ...] = ()
+    law_reason: str = ""
+    law_error: float = np.nan
 
     @property
     def cuts(self) -> Cuts:
@@ -107,7 +111,15 @@ class Estimate:
     @property
     def misfit(self) -> Misfit:
         """The misfit that was searched."""
-        return Misfit(force_model(self.model), self.cuts, self.known, self.scale)
+        return Misfit(self.tangent, self.cuts, self.known, self.scale)
+
+    @property
+    def tangent(self) -> ForceModel:
+        """The model, and of the law "coupled" its tangent in tau_w at the estimate."""
+        model = force_model(self.model)
+        if not isinstance(model, CoupledModel):
+            return model
+        return frozen(model, self.friction_coefficient, self.wear_strength / self.shear_modulus)
 
     @property
     def dof(self) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,16 +13,14 @@ from surrogate.basics.checks import LARGEST, Quantity, one_number
 from surrogate.basics.records import html_table, number
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import PROJECTED, of_law
+from surrogate.choosing.laws import PROJECTED
 from surrogate.contact.base import ForceModel
-from surrogate.coupling.model import CoupledModel
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import WithFriction, with_friction
 from surrogate.identification.open_questions import undecided
-from surrogate.identification.profile_fit import fit_profile
+from surrogate.identification.profile_fit import best_fit, fit_profile
 from surrogate.identification.summary import answer, summary
-from surrogate.inference.coupled_fit import coupled_fit
 from surrogate.inference.inputs import (
     FRICTION_COEFFICIENT,
     NOTHING_KNOWN,
@@ -31,6 +30,7 @@ from surrogate.inference.inputs import (
     series_of_cuts,
     stated_errors,
 )
+from surrogate.inference.law import lawful_fit, require_law
 from surrogate.inference.line_fit import fit_line, is_linear
 from surrogate.inference.scatter import scatter_of_repeats
 
@@ -103,6 +103,12 @@ class Identification(Estimate):
     assumed : tuple of str
         Names of what nobody gave: "friction_coefficient" of 0, "stiffening_exponent" of 2, or
         "shear_modulus", which plays no part then.
+    law_reason : str
+        Why the forces were identified under `law`, in words.
+    law_error : float
+        Largest bound over the cuts of what the law adds to the relative error of a force, beside
+        finite elements on which the wire rubs [-]: 0 under "coupled", whose own error is part of
+        `model_error`; nan where nobody knows it. It is in no interval.
 
     Notes
     -----
@@ -157,7 +163,8 @@ class Identification(Estimate):
         InputError
             If it is negative or no number, or if the shear modulus is not known.
         DomainError
-            If the model covers no toughness for all of the wires.
+            If the model covers no toughness for all of the wires, or the law is "coupled" and its
+            solutions do not reach to a cut with this friction.
         """
         return with_friction(self, one_number(FRICTION_COEFFICIENT, friction_coefficient))
 
@@ -200,7 +207,7 @@ def identify(
     toughness_prior: tuple[float, float] | None = None,
     wear_strength_prior: tuple[float, float] | None = None,
     further_radii: tuple[float, float] | None = None,
-    law: str = PROJECTED,
+    law: str = AUTO,
 ) -> Identification:
     """Identify cleavage toughness and wear strength from steady wire-cutting forces.
 
@@ -272,10 +279,13 @@ def identify(
         Smallest and largest radius of a further wire that you could cut with [m]; by default from
         a fifth of the thinnest to five times the thickest of the wires, but from 20 um to 2 mm
         across as far as theirs allow.
-    law : str, default "projected"
-        Which functions of the contact wear and friction follow, as in `cutting_force`. A wear
-        strength that was identified by one law does not belong into another. Under "coupled"
-        intervals are those with kappa at the estimate.
+    law : str, default "auto"
+        Which functions of the contact wear and friction follow, as in `cutting_force`; a wear
+        strength that was identified by one law does not belong into another. "auto" is one law
+        for all cuts: "coupled", the most faithful one, where coupled solutions reach to each of
+        them at the estimate; else "projected", the only one with an experiment behind it, under
+        which tau_w is an effective strength of unknown error. `law` and `law_reason` of the result
+        say which and why. Closed forms are "projected".
 
     Returns
     -------
@@ -295,7 +305,7 @@ def identify(
         If the model does not reach to alpha, or covers no toughness for all of the wires; under the
         law "coupled" if coupled solutions do not reach to the friction and wear of a cut.
     AccuracyError
-        If the model is "auto" and none is as exact as `rtol`.
+        If the model is "auto" and none is as exact as `rtol`, or with the law "auto" nobody knows.
 
     Notes
     -----
@@ -334,17 +344,14 @@ def identify(
     >>> fit = identify(radius, force, 685.0, model="eq13", toughness_max=1.5)
     >>> print(f"{fit.toughness:.4f} J/m2, {fit.wear_strength:.1f} Pa")
     1.5000 J/m2, 7831.5 Pa
-    >>> print(fit.undecided[0])
-    it is the bound of 1.5 J/m2, not the forces, that limits the toughness above
 
-    By finite elements the arc of contact changes with the toughness, and more than one may fit:
+    By finite elements more than one toughness may fit:
 
-    >>> fit = identify(radius, force, 685.0)
-    >>> fit.model, len(fit.profile.modes) > 1
-    ('table', True)
+    >>> len(identify(radius, force, 685.0).profile.modes) > 1
+    True
     """
-    law_model = one_model(of_law(model, law), rtol)
-    chosen = law_model.name if law_model.law == PROJECTED else law_model
+    require_law(law)
+    needing = one_model(model, rtol).name if law == PROJECTED else model
     given = known(
         toughness_max,
         wear_strength,
@@ -353,7 +360,7 @@ def identify(
         force_std is not None or relative_error is not None,
     )
     modulus, material, assumed = material_of(
-        chosen, shear_modulus, friction_coefficient, stiffening_exponent
+        needing, shear_modulus, friction_coefficient, stiffening_exponent
     )
     cuts = series_of_cuts(
         wire_radius,
@@ -377,10 +384,8 @@ def identify(
             return fit_line(cuts, model)
         return fit_profile(cuts, model, given, probability, further_radii)
 
-    if isinstance(law_model, CoupledModel):
-        chosen, fit = coupled_fit(law_model, cuts, fitted)
-    else:
-        fit = fitted(chosen)
+    solved = lawful_fit(model, law, rtol, cuts, partial(best_fit, cuts, given), fitted)
+    fit = solved.fit
     weight, residuals = cuts.weight, fit["residuals"]
     dof = cuts.force.size + given.facts - 2
     misfit = fit.pop("misfit")
@@ -404,9 +409,11 @@ def identify(
         sample=cuts.sample,
         scatter=scatter,
         assumed=assumed,
-        model=chosen,
+        model=solved.model,
         confidence=probability,
         known=given,
+        law_reason=solved.reason,
+        law_error=solved.error,
     )
     if identification.at_limit:
         return replace(identification, covariance=fit["covariance"] * np.nan)

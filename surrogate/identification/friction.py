@@ -7,9 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surrogate.basics.digits import rounded
-from surrogate.errors import InputError
+from surrogate.choosing.by_name import force_model
+from surrogate.contact.base import ForceModel
+from surrogate.coupling.model import CoupledModel
+from surrogate.errors import DomainError, InputError
 from surrogate.identification.estimate import Estimate
+from surrogate.inference.coupled_fit import coupled_fit
 from surrogate.inference.line_fit import linear_form, solve_least_squares
+from surrogate.inference.misfit import Misfit
 from surrogate.inference.profile import smallest_misfit
 
 __all__ = ["SUPPOSED", "WithFriction", "forgotten_friction_in_words", "with_friction"]
@@ -44,7 +49,8 @@ def with_friction(fit: Estimate, friction: float) -> WithFriction:
     Raises
     ------
     DomainError
-        If the model covers no toughness for all of the wires.
+        If the model covers no toughness for all of the wires, or the law is "coupled" and its
+        solutions do not reach to a cut with this friction.
     InputError
         If the shear modulus is not known.
 
@@ -65,9 +71,28 @@ def with_friction(fit: Estimate, friction: float) -> WithFriction:
     if fit.profile is None:
         return _on_a_line(fit, friction)
     cuts = replace(fit.cuts, friction_coefficient=friction)
-    misfit, toughness, wear = smallest_misfit(replace(fit.misfit, cuts=cuts))
+    misfit, toughness, wear = _smallest(fit, replace(fit.misfit, cuts=cuts))
     fits = not misfit > fit.profile.threshold
     return WithFriction(friction, toughness, wear, fits)
+
+
+def _smallest(fit: Estimate, misfit: Misfit) -> tuple[float, float, float]:
+    """Return the lowest misfit, Gamma_o and tau_w; of the law "coupled" by its tangent there."""
+    model = force_model(fit.model)
+    if not isinstance(model, CoupledModel):
+        return smallest_misfit(misfit)
+
+    def best(at: ForceModel) -> tuple[float, float]:
+        return smallest_misfit(replace(misfit, model=at))[1:]
+
+    def fitted(at: ForceModel) -> dict[str, float]:
+        least = smallest_misfit(replace(misfit, model=at))
+        return dict(zip(("misfit", "toughness", "wear_strength"), least, strict=True))
+
+    solved = coupled_fit(model, misfit.cuts, best, fitted)
+    if solved.outside.any():
+        raise DomainError(f"{solved.reach_in_words(misfit.cuts)}; give less friction.")
+    return solved.fit["misfit"], solved.fit["toughness"], solved.fit["wear_strength"]
 
 
 def _on_a_line(fit: Estimate, friction: float) -> WithFriction:
@@ -92,8 +117,15 @@ does not fit the forces.
     assumed = fit.assumed
     if "friction_coefficient" not in assumed or "shear_modulus" in assumed or not fit.has_scatter:
         return ""
-    parts = [_in_words(fit, with_friction(fit, friction)) for friction in SUPPOSED]
+    parts = [_supposed(fit, friction) for friction in SUPPOSED]
     return f"Friction was taken to be 0: {'; '.join(parts)}."
+
+
+def _supposed(fit: Estimate, friction: float) -> str:
+    try:
+        return _in_words(fit, with_friction(fit, friction))
+    except DomainError:
+        return f"xi = {friction:g} is beyond what coupled solutions reach"
 
 
 def _in_words(fit: Estimate, other: WithFriction) -> str:

@@ -19,7 +19,7 @@ from surrogate.inference.misfit import Misfit
 from surrogate.inference.profile import profile_misfit, smallest_misfit
 from surrogate.inference.quantiles import normal_quantile, student_quantile
 
-__all__ = ["fit_profile", "linearised"]
+__all__ = ["best_fit", "fit_profile", "linearised"]
 
 LEAST_SCATTER = 1e-4
 """Of the largest force; no forces are measured more exactly."""
@@ -77,6 +77,12 @@ def fit_profile(
         "further_wire": further_wire(misfit, profile, std, searched),
         "scale": misfit.scale,
     }
+
+
+def best_fit(cuts: Cuts, known: Known, model: ForceModel) -> tuple[float, float]:
+    """Return Gamma_o [J/m2] and tau_w [Pa] of the smallest misfit alone, without intervals."""
+    dof = cuts.force.size + known.facts - 2
+    return smallest_misfit(_scaled(Misfit(model, cuts, known), dof))[1:]
 
 
 def _scaled(misfit: Misfit, dof: int) -> Misfit:

@@ -10,6 +10,9 @@ import numpy as np
 
 from surrogate.basics.digits import below_digits, rounded
 from surrogate.basics.records import number
+from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.choosing.choice import rounded_up
+from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import forgotten_friction_in_words
@@ -23,6 +26,7 @@ __all__ = [
     "brief",
     "budget",
     "is_answer",
+    "law_in_words",
     "quantity_ranges",
     "rests_on",
     "summary",
@@ -54,7 +58,7 @@ def answer(fit: Estimate) -> str:
     count = f"{wires} wire{'s' if wires > 1 else ''}"
     if fit.force.size > wires:
         count += f", {fit.force.size} cuts"
-    about = f"{100.0 * fit.confidence:.4g} %, {count}, model {fit.model}"
+    about = f"{100.0 * fit.confidence:.4g} %, {count}, model {fit.model}{_law_of_name(fit)}"
     admitted = [mode for mode in fit.profile.modes if mode.admitted] if fit.profile else []
     if len(admitted) > 1:
         several = "; or ".join(
@@ -65,6 +69,11 @@ def answer(fit: Estimate) -> str:
         ranges = ", ".join(_quantities(fit))
         return f"{len(admitted)} materials fit: {several} (all that fits: {ranges}), {about}"
     return f"{', '.join(_quantities(fit))}, {about}"
+
+
+def _law_of_name(fit: Estimate) -> str:
+    """Return the law of a model that is a name and could be of another."""
+    return ", law projected" if fit.model in FITTED_NAMES else ""
 
 
 def _quantities(fit: Estimate) -> Iterator[str]:
@@ -136,6 +145,46 @@ def _plus(std: float) -> str:
     return f" +- {number(std, 2)}" if std > 0.0 else ""
 
 
+_LAWS = {
+    PROJECTED: "projected, that of the paper",
+    SLIP: "slip, to first order in friction and wear",
+    COUPLED: "coupled, with friction and wear acting on the gel",
+}
+
+
+def law_in_words(fit: Estimate) -> str:
+    """Return which law of friction and wear the numbers belong to, why, and how far it is off.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> words = law_in_words(identify([1e-4, 2e-4, 4e-4], [4.7, 7.9, 13.8], model="eq13"))
+    >>> print(words[:72])
+    Law: projected, that of the paper; model 'eq13' has no other. How far it
+    """
+    head = f"Law: {_LAWS[fit.law]}"
+    if fit.law_reason:
+        head += f"; {fit.law_reason}"
+    return f"{head}. {_law_error_in_words(fit)}."
+
+
+def _law_error_in_words(fit: Estimate) -> str:
+    if fit.wear_strength == 0.0 and fit.friction_coefficient == 0.0:
+        return "Without friction and wear all laws are the same"
+    if fit.law == COUPLED:
+        return "The error of these solutions is part of the intervals"
+    if math.isfinite(fit.law_error):
+        share = rounded_up(100.0 * fit.law_error)
+        return (
+            f"Its forces are up to {share} % off beside coupled solutions, which is part of no "
+            "interval"
+        )
+    return (
+        "How far it is off nobody knows, and no interval contains it: tau_w is an effective "
+        "strength, to be compared only with others of this law"
+    )
+
+
 def budget(fit: Estimate) -> str:
     """Return how much each source of error adds to the standard errors; empty where unknown."""
     parts = [
@@ -182,7 +231,13 @@ def is_answer(sentence: str) -> bool:
 def rests_on(fit: Estimate) -> list[str]:
     """Return sentences on the scatter, what was given or assumed, and the sources of error."""
     scatter = "" if fit.scatter is None else f"Scatter of a cut: {fit.scatter.words}."
-    sentences = (scatter, assumptions(fit), forgotten_friction_in_words(fit), budget(fit))
+    sentences = (
+        law_in_words(fit),
+        scatter,
+        assumptions(fit),
+        forgotten_friction_in_words(fit),
+        budget(fit),
+    )
     return [sentence for sentence in sentences if sentence]
 
 

@@ -32,6 +32,8 @@ LARGEST_ERROR = float(np.log(2.0))
 FARTHEST = 700.0
 """In ln g, where the smallest float is."""
 
+_TINY = float(np.exp(-FARTHEST))
+
 EXPONENTS = 15
 """At which the slopes at the ends are looked at."""
 
@@ -53,6 +55,9 @@ class ContactError:
         Of the continuation beyond, the same for all wires but for this factor.
     below, above : ndarray of bool
         Beyond which end.
+    factor, factor_drift : ndarray, or None
+        Of what both are multiplied by under the law "coupled": within the reach of its solutions,
+        and what comes on top beyond it, the same for all wires but for this factor.
     """
 
     arc: Array
@@ -61,6 +66,8 @@ class ContactError:
     load_drift: Array
     below: NDArray[np.bool_]
     above: NDArray[np.bool_]
+    factor: Array | None = None
+    factor_drift: Array | None = None
 
 
 def is_continued(model: ForceModel) -> bool:
@@ -107,11 +114,17 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
     bounds = contact_bounds(model, inside, alpha)
     if bounds is None:
         return None
-    own = model.own_error(inside, alpha) if isinstance(model, FrozenLoad) else 0.0
-    near = [np.fmin(bound + own, LARGEST_ERROR) for bound in bounds]
+    near = [np.fmin(bound, LARGEST_ERROR) for bound in bounds]
+    factors: tuple[Array, ...] = ()
+    if isinstance(model, FrozenLoad):
+        factors = tuple(
+            np.fmin(part, LARGEST_ERROR) / np.sqrt(3.0)
+            for part in np.broadcast_arrays(*model.own_error(np.maximum(g, _TINY), alpha))
+        )
     below, above = g < low, g > high
     drifts = []
-    for bound, rates in zip(near, _dropped_slopes(model), strict=True):
+    slip = model.slip if isinstance(model, FrozenLoad) else model
+    for bound, rates in zip(near, _dropped_slopes(slip), strict=True):
         drift = np.zeros_like(g)
         if np.any(below) or np.any(above):
             with np.errstate(divide="ignore"):
@@ -120,7 +133,7 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
             drift = np.where(below | above, np.minimum(beyond, FARTHEST) * rate, 0.0)
         drifts.append(np.minimum(drift, LARGEST_ERROR) / np.sqrt(3.0))
     arc, load = (bound / np.sqrt(3.0) for bound in near)
-    return ContactError(arc, load, drifts[0], drifts[1], below, above)
+    return ContactError(arc, load, drifts[0], drifts[1], below, above, *factors)
 
 
 @lru_cache(maxsize=64)

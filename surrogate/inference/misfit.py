@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.contact.base import ForceModel
+from surrogate.coupling.frozen import FrozenLoad
 from surrogate.inference.continuation import contact_error, correlation, is_continued
 from surrogate.inference.inputs import Cuts, Known
 
@@ -189,12 +190,18 @@ class Misfit:
     def _secant(self, toughness: Array, wear: Array, name: str, std: float) -> Array:
         """Return half the change of the forces over two standard errors of mu or alpha."""
         value = getattr(self.cuts, name)
-        up, down = (
-            replace(self, cuts=replace(self.cuts, **{name: value * np.exp(step)}))
-            for step in (std / value, -std / value)
-        )
+        up, down = (self._with(name, value * np.exp(step)) for step in (std / value, -std / value))
         (base, arc), (less_base, less_arc) = up._parts(toughness), down._parts(toughness)
         return np.asarray(0.5 * (base - less_base + wear * (arc - less_arc))[:, :, np.newaxis])
+
+    def _with(self, name: str, value: float) -> Misfit:
+        """Return the misfit with another mu or alpha; tau_w of a coupled law's kappa stays."""
+        model = self.model
+        if isinstance(model, FrozenLoad) and name == "shear_modulus":
+            relative = model.relative_wear * (self.cuts.shear_modulus / value)
+            model = replace(model, relative_wear=relative)
+        another: dict[str, Any] = {name: value}
+        return replace(self, model=model, cuts=replace(self.cuts, **another))
 
     def _of_samples(self, toughness: Array) -> Iterator[tuple[str, Array]]:
         cuts = self.cuts
@@ -210,7 +217,7 @@ class Misfit:
     ) -> Iterator[tuple[str, Array]]:
         """Yield the model's own errors, in proportion to what wear and friction add to a force."""
         error = contact_error(self.model, self._g(toughness), self.cuts.stiffening_exponent)
-        if error is None or self.known.wear_strength == 0.0:
+        if error is None or not (self.known.wear_strength != 0.0 or np.any(friction)):
             return
         root = self._root[self._radii[1]]
         parts = [(worn, error.arc, error.arc_drift)]
@@ -222,6 +229,10 @@ class Misfit:
                 if np.any(beyond):
                     drifts = part * self._per_cut(np.where(beyond, drift, 0.0))
                     yield "model", drifts[:, :, np.newaxis]
+        if error.factor is not None and error.factor_drift is not None:
+            both = worn + friction
+            yield "model", (both * self._per_cut(error.factor))[:, :, np.newaxis] * root
+            yield "model", (both * self._per_cut(error.factor_drift))[:, :, np.newaxis]
 
     def slope(self, toughness: Array) -> Array:
         """Return the derivative of the misfit by the toughness, with the best wear strength.
@@ -257,7 +268,13 @@ class Misfit:
 
     def friction_slopes(self, toughness: Array) -> Array:
         """Return dF/dxi = 2 R_w mu B of each cut [N/m], shape (m, n)."""
-        load = self._per_cut(self._load(self._g(toughness)))
+        g = self._g(toughness)
+        if isinstance(self.model, FrozenLoad):
+            with np.errstate(all="ignore"):
+                slope = self.model.friction_slope(g, self.cuts.stiffening_exponent)
+            load = self._per_cut(np.broadcast_to(slope, g.shape))
+        else:
+            load = self._per_cut(self._load(g))
         return np.asarray(2.0 * self.cuts.wire_radius * self.cuts.shear_modulus * load)
 
     def arcs(self, toughness: Array) -> Array:
@@ -295,6 +312,11 @@ class Misfit:
         g = self._g(toughness)
         arc: Any = 0.0
         base = np.broadcast_to(toughness[:, np.newaxis], g.shape)
+        if isinstance(self.model, FrozenLoad):
+            with np.errstate(all="ignore"):
+                slope, rubbed = self.model.linearised(g, alpha)
+                base, arc = base + 2.0 * radii * mu * rubbed, 2.0 * radii * slope
+            return self._per_cut(base), self._per_cut(np.broadcast_to(arc, g.shape))
         with np.errstate(all="ignore"):
             if self.known.wear_strength != 0.0:
                 arc = 2.0 * radii * self.model.arc(g, alpha)

@@ -19,20 +19,23 @@ def fit(tau=7e3, **options):
 
 def test_the_rows_are_identifications_of_the_same_forces():
     free = fit()
-    paper, bounded, fixed = alternatives_record(free, GEL)["alternatives"]
+    paper, slip, bounded, fixed = alternatives_record(free, GEL)["alternatives"]
     for row, options in (
         (paper, {"model": "eq13"}),
+        (slip, {"law": "slip"}),
         (bounded, {"toughness_max": 5.0}),
         (fixed, {"wear_strength": 7e3}),
     ):
         other = fit(**options)
-        assert row["model"] == other.model
+        assert row["model"] == str(other.model)
+        assert row["law"] == other.law
         assert (row["toughness"], row["wear_strength"]) == (other.toughness, other.wear_strength)
         squares = ((other.residuals / 0.3) ** 2).sum()
         followed = squares if other.profile is None else other.profile.modes[0].misfit
         assert row["misfit"] == pytest.approx(followed)
         assert followed <= squares * (1.0 + 1e-9)  # shared errors only take from it
     assert paper["admitted"] is None
+    assert slip["admitted"] is None
     assert fixed["misfit"] >= free.profile.modes[0].misfit
     assert fixed["admitted"] == (fixed["misfit"] <= free.profile.threshold)
 
@@ -60,7 +63,7 @@ def test_verdicts_agree_with_the_intervals():
 def test_without_scatter_nothing_is_excluded_or_said():
     force = cutting_force(Scene(3e4, 2.0, RADII[:2], wear_strength=7e3), "table").total
     record = alternatives_record(identify(RADII[:2], force, 3e4), GEL)
-    assert [row["admitted"] for row in record["alternatives"]] == [None] * 3
+    assert [row["admitted"] for row in record["alternatives"]] == [None] * 4
     assert record["verdicts"] == []
     assert "unknown" in alternatives_text(record | {"misfit": "sum of squares"})
 
@@ -73,7 +76,7 @@ def test_where_there_is_nothing_to_compare_with_it_is_silent(options):
     assert alternatives_text({}) == ""
 
 
-def test_a_material_of_which_nothing_is_known_is_compared_with_the_paper_alone():
+def test_a_material_of_which_nothing_is_known_is_compared_with_the_paper_and_other_laws_alone():
     record = alternatives_record(fit(), Material())
-    assert [row["assumption"] for row in record["alternatives"]] == ["Eq. (13)"]
+    assert [row["assumption"] for row in record["alternatives"]] == ["Eq. (13)", "law slip"]
     assert record["verdicts"] == []

@@ -57,7 +57,7 @@ def test_a_row_a_gel_and_a_sentence_a_pair(run):
     assert "\nsoft and other are not told apart (p" in out
     assert "\ntough and other differ (p" in out
     assert "Holm's correction for 3 pairs" in " ".join(out.split())
-    assert "With 95 % intervals, model table." in out
+    assert "With 95 % intervals, model table, law projected." in out
 
 
 def test_the_numbers_are_those_of_single_files(run):
@@ -225,3 +225,27 @@ def test_verbose_prints_all_tables_of_each(run):
     out = run("soft.csv tough.csv --shear-modulus 30kPa --verbose")[1]
     assert out.count("\nIdentified (table)") == 2
     assert out.count("\nTransition radius R_w*") == 2
+
+
+def test_gels_of_which_one_is_beyond_coupled_solutions_are_all_by_the_papers_law(run, lab):
+    radius = np.repeat([0.1, 0.15, 0.2, 0.3, 0.4], 2)
+    for name, wear in (("gentle", 5.0), ("harsh", 5e5)):
+        scene = Scene(30e3, 5.0, 1e-3 * radius, wear_strength=wear, stiffening_exponent=5.0)
+        force = np.asarray(cutting_force(scene, "table", law="slip").total) * SCATTER
+        lines = [f"{r},{f:.5f}" for r, f in zip(radius, force, strict=True)]
+        header = "wire_radius_mm,force_per_thickness_N_per_m"
+        (lab / f"{name}.csv").write_text("\n".join([header, *lines]) + "\n")
+    gel = "--shear-modulus 30kPa --stiffening-exponent 5"
+    for name, law in (("gentle", "coupled"), ("harsh", "projected")):
+        _, out, _ = run(f"{name}.csv {gel} --json")
+        assert json.loads(out)["law"] == law
+    _, out, _ = run(f"gentle.csv harsh.csv {gel} --json")
+    record = json.loads(out)
+    assert record["law"] == "projected"
+    for gel_record in record["gels"].values():
+        assert gel_record["law"] == "projected"
+        assert gel_record["law_reason"].startswith("one law for all gels, and of harsh coupled")
+    code, _, err = run(f"gentle.csv harsh.csv {gel} --law coupled")
+    assert code == 2
+    assert err.startswith("wirecut: harsh: coupled solutions do not reach")
+    assert "--law slip" in err

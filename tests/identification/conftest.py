@@ -1,5 +1,5 @@
 """What the tests of this room share with others."""
 
-from fitted import fitted_file, installed, one_start
+from fitted import coupled, fitted_file, installed, made_up_kappa, one_start
 
-__all__ = ["fitted_file", "installed", "one_start"]
+__all__ = ["coupled", "fitted_file", "installed", "made_up_kappa", "one_start"]

@@ -103,6 +103,7 @@ def drawn(random, **fixed):
         "friction_std": friction_std,
         "force_std": std if known else None,
         "model": MODEL,
+        "law": "projected",
         "confidence": CONFIDENCE,
     }
     stated["shear_modulus_std"] = modulus_std * stated["shear_modulus"]
