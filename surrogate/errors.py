@@ -8,6 +8,7 @@ __all__ = [
     "ImplausibleInputWarning",
     "InputError",
     "MissingExtraError",
+    "OtherLawWarning",
     "UnknownErrorWarning",
     "UnknownModelError",
     "WirecutError",
@@ -44,3 +45,7 @@ class ImplausibleInputWarning(UserWarning):
 
 class UnknownErrorWarning(UserWarning):
     """A number by the projected law, as nobody knows how far any law is off there."""
+
+
+class OtherLawWarning(UserWarning):
+    """A force under another law than that by which toughness and wear strength were identified."""

@@ -36,6 +36,9 @@ QUANTITIES: tuple[Quantity, ...] = (
     STIFFENING_EXPONENT,
 )
 
+LAWS = ("projected", "slip", "coupled")
+"""Names of the laws of dissipation."""
+
 NAMES = tuple(quantity.name for quantity in QUANTITIES)
 
 
@@ -64,12 +67,16 @@ class Scene(Record):
         Exponent alpha of the Ogden solid, Eq. (1) [-]; 2 is neo-Hookean. A negative one becomes its
         absolute value: in plane strain an incompressible solid has l_1 = 1/l_2, so that both are
         the same solid.
+    law : str, optional
+        The law of dissipation that toughness and wear strength were identified under,
+        "projected", "slip" or "coupled"; None where they are of no law in particular. Functions
+        whose law is "auto" keep to it, and warn where another is asked for.
 
     Raises
     ------
     InputError
         If a quantity is not a real number or an array of them, is nan, infinite or negative, or
-        alpha is 0, or if the shapes do not broadcast.
+        alpha is 0, if the shapes do not broadcast, or if there is no such law.
 
     References
     ----------
@@ -90,6 +97,7 @@ class Scene(Record):
     friction_coefficient: FloatOrArray
     wear_strength: FloatOrArray
     stiffening_exponent: FloatOrArray
+    law: str | None
 
     def __init__(
         self,
@@ -99,6 +107,7 @@ class Scene(Record):
         friction_coefficient: ArrayLike = 0.0,
         wear_strength: ArrayLike = 0.0,
         stiffening_exponent: ArrayLike = 2.0,
+        law: str | None = None,
     ) -> None:
         given = (
             shear_modulus,
@@ -115,9 +124,17 @@ class Scene(Record):
             object.__setattr__(self, quantity.name, checked)
         if not all(type(value) is float for value in self.values()):
             broadcast_shape(NAMES, self.values())
+        if law is not None and law not in LAWS:
+            raise InputError(
+                f"law must be one of {', '.join(LAWS)}, or None, but is {shown(law)}; choose one."
+            )
+        object.__setattr__(self, "law", law)
 
     def __reduce__(self) -> Any:
-        return type(self), self.values()  # by the constructor, whose arrays are read-only
+        return type(self), (
+            *self.values(),
+            self.law,
+        )  # by __init__, whose arrays are read-only
 
     def values(self) -> tuple[FloatOrArray, ...]:
         """Return the six quantities in the order of the parameters."""

@@ -20,6 +20,7 @@ from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import DomainError, InputError
+from surrogate.scene import LAWS
 
 __all__ = [
     "COUPLED",
@@ -34,9 +35,6 @@ __all__ = [
     "of_law",
     "require_known_load",
 ]
-
-LAWS = (PROJECTED, SLIP, COUPLED)
-"""The laws of dissipation."""
 
 _BEST = "table"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -30,11 +31,12 @@ from surrogate.choosing.laws import (
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.other_law import law_for, warn_of_other_law
 from surrogate.errors import InputError
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
-__all__ = ["CuttingForce", "cutting_force", "force_of"]
+__all__ = ["CuttingForce", "cutting_force", "force_of", "warn_of_law"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,6 +174,9 @@ def cutting_force(
     -----
     ImplausibleInputWarning
         If a quantity is hardly that of a soft solid's cut, such as a radius of 0.2 m.
+    OtherLawWarning
+        If the scene's parameters were identified under another law, with how far that moves the
+        force.
 
     Notes
     -----
@@ -213,9 +218,35 @@ def cutting_force(
     >>> print(f"{limit.total:.4f} N/m, in domain: {limit.in_domain}")
     1.7600 N/m, in domain: False
     """
+    law = law_for(scene, law)
     force = force_of(scene, of_law(model, law, any_law=True), rtol, extrapolate, outside)
     warn_of_scene(scene.values())
+    warn_of_other_law(scene, law, force, partial(_by_own_law, scene))
     return force
+
+
+def warn_of_law(scene: Scene, model: Any, law: Any, depth: int = 4) -> None:
+    """Warn where another law is asked for than the scene's parameters were identified under.
+
+    Of functions that give no force: by how far another law moves it says how much it matters.
+
+    Parameters
+    ----------
+    scene, model
+        As in `cutting_force`.
+    law : str
+        What was asked for, after `law_for`.
+    depth : int
+        Whose line the warning names: 4 for that of the caller's caller.
+    """
+    if scene.law is not None:
+        force = force_of(scene, of_law(model, law, any_law=True), extrapolate=True)
+        warn_of_other_law(scene, law, force, partial(_by_own_law, scene), depth)
+
+
+def _by_own_law(scene: Scene) -> Any:
+    """Return the total under the law of the scene's parameters [N/m]."""
+    return force_of(scene, of_law(AUTO, scene.law), extrapolate=True).total
 
 
 def force_of(

@@ -290,6 +290,9 @@ class Estimate:
     def scene(self, wire_radius: ArrayLike) -> Scene:
         """Return the scene of the identified material and a wire of any radius [m].
 
+        It knows the law that it was identified under: a force of it is by that law, and by another
+        only with a warning.
+
         Raises
         ------
         InputError
@@ -302,6 +305,7 @@ class Estimate:
             friction_coefficient=self.friction_coefficient,
             wear_strength=self.wear_strength,
             stiffening_exponent=self.stiffening_exponent,
+            law=self.law,
         )
 
     def predict(self, wire_radius: ArrayLike) -> Array:
