@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fe_training.figure_style import Columns
 from fe_training.markdown import markdown_table
+from fe_training.paper.laws import Verdict, verdicts
 from surrogate import (
     Identification,
     MapPoints,
@@ -24,7 +26,6 @@ from surrogate.basics.figures import SMALL, legend_above
 from surrogate.basics.files import model_file
 from surrogate.choosing.by_name import force_model
 from surrogate.cutting.force import cutting_force
-from surrogate.errors import DomainError
 from surrogate.identification.figure import plot_profile
 from surrogate.inference.profile import Mode
 
@@ -198,29 +199,10 @@ class Experiment:
         head = ["law", r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", "$g$ of the wires"]
         return markdown_table([*head, "largest difference [N/m]"], lines)
 
-    def laws_table(self) -> str:
-        """Return what each law of dissipation makes of the same forces."""
-        lines = [["projected", *self._law_row(mode, "projected")] for mode in self.modes]
-        lines += [
-            ["slip", *self._law_row(mode, "slip")]
-            for mode in self._modes(self._identified(self.model, "slip"))
-        ]
-        try:
-            fit = self._identified(self.model, "coupled")
-            lines += [["coupled", *self._law_row(mode, "coupled")] for mode in self._modes(fit)]
-        except DomainError as error:
-            lines.append(["coupled", "", "", "", str(error).split(";")[0]])
-        head = [r"$\Gamma_o$ [J/m²]", r"$\tau_w$ [kPa]", r"$\tau_w/\mu$"]
-        return markdown_table(["law", *head, "wires of which its error is known"], lines)
-
-    def _law_row(self, mode: Mode, law: str) -> Iterator[str]:
-        yield f"{mode.toughness:.3g}"
-        yield f"{1e-3 * mode.wear_strength:.3g}"
-        yield f"{mode.wear_strength / self.ours.shear_modulus:.3g}"
-        scene = self.scene(mode, self.cuts.wire_radius)
-        error = cutting_force(scene, "auto", law=law, extrapolate=True).relative_error
-        known = np.isfinite(np.asarray(error, dtype=float))
-        yield f"{known.sum()} of {known.size}"
+    @cached_property
+    def by_laws(self) -> list[Verdict]:
+        """What each law of dissipation, and "auto", makes of the same forces."""
+        return verdicts(lambda law: self._identified(self.model, law), self._modes, self.gel)
 
 
 def _row(mode: Mode, scene: Scene, difference: np.ndarray) -> Iterator[str]:
