@@ -10,7 +10,6 @@ from typing import Any
 
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.choosing.by_name import force_model
-from surrogate.choosing.laws import PROJECTED
 from surrogate.cli.alternatives import alternatives_record, alternatives_text, friction_records
 from surrogate.cli.common import Record, wire_rows
 from surrogate.cutting.regimes import classify
@@ -273,7 +272,7 @@ def _identified_wires(fit: Identification) -> list[Record]:
     if fit.is_physical and "shear_modulus" not in fit.assumed:
         continued = is_continued(force_model(fit.model))  # as the identification itself does
         scene = fit.scene(fit.wire_radius)
-        classes = classify(scene, model=fit.model, extrapolate=continued, law=PROJECTED)
+        classes = classify(scene, model=fit.model, extrapolate=continued, law=fit.law)
         regime = {"dominant": classes.dominant, "contact": classes.contact}
     return wire_rows(
         wire_radius=fit.wire_radius,

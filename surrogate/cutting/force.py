@@ -36,7 +36,7 @@ from surrogate.errors import InputError
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
-__all__ = ["CuttingForce", "cutting_force", "force_of", "warn_of_law"]
+__all__ = ["CuttingForce", "cutting_force", "force_of", "warn_if_other_law"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -225,7 +225,7 @@ def cutting_force(
     return force
 
 
-def warn_of_law(scene: Scene, model: Any, law: Any, depth: int = 4) -> None:
+def warn_if_other_law(scene: Scene, model: Any, law: Any, depth: int = 4) -> None:
     """Warn where another law is asked for than the scene's parameters were identified under.
 
     Of functions that give no force: by how far another law moves it says how much it matters.

@@ -16,6 +16,8 @@ from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.force import warn_if_other_law
+from surrogate.cutting.other_law import law_for
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import NAMES, Scene, require_scene
 
@@ -165,6 +167,7 @@ def force_gradient(
     """
     extrapolate = flag("extrapolate", extrapolate)
     require_scene(scene)
+    law = law_for(scene, law)
     by_law = parted(model, law, rtol, scene.values())
     chosen = by_law.model
     if not isinstance(chosen, FittedModel):
@@ -179,6 +182,7 @@ def force_gradient(
     for name, slope in zip(NAMES, slopes, strict=True):
         defined(f"derivative by {name}", slope, remedy)
     warn_of_scene(scene.values())
+    warn_if_other_law(scene, model, law)
     return ForceGradient(
         **dict(zip(NAMES, slopes, strict=True)),
         model=chosen.name,

@@ -20,7 +20,7 @@ from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.laws import PROJECTED, AnyLaw, of_law
 from surrogate.contact.base import ForceModel
-from surrogate.cutting.force import CuttingForce, force_of, warn_of_law
+from surrogate.cutting.force import CuttingForce, force_of, warn_if_other_law
 from surrogate.cutting.other_law import law_for
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
@@ -180,7 +180,7 @@ def classify(
     share = one_number(THRESHOLD, threshold)
     extrapolate = flag("extrapolate", extrapolate)
     law = law_for(scene, law)
-    warn_of_law(scene, model, law)
+    warn_if_other_law(scene, model, law)
     model = of_law(model, law, any_law=True)
     split = isinstance(model, str) and model == SPLIT_MODEL
     force = None if split else force_of(scene, model, rtol, extrapolate)

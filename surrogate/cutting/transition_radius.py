@@ -32,6 +32,7 @@ from surrogate.choosing.laws import AnyLaw, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel
 from surrogate.cutting.model_transition import transition_under, under_best_law
+from surrogate.cutting.other_law import law_for
 from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
@@ -120,7 +121,7 @@ def transition_radius(
     require_scene(scene)
     mu, gamma, _, xi, tau = scene.values()[:5]
     warn_of_scene((mu, gamma, 0.0, xi, tau))  # the radius plays no part
-    chosen = of_law(model, law, any_law=True)
+    chosen = of_law(model, law_for(scene, law), any_law=True)
     if not isinstance(chosen, AnyLaw):
         return transition_radius_of(scene, chosen, rtol)
     one = one_model(chosen.named or AUTO, rtol)

@@ -24,8 +24,9 @@ from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import COUPLED, PROJECTED
 from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
-from surrogate.cutting.force import force_of
+from surrogate.cutting.force import force_of, warn_if_other_law
 from surrogate.cutting.gradient import force_gradient
+from surrogate.cutting.other_law import law_for
 from surrogate.errors import InputError
 from surrogate.scene import NAMES, QUANTITIES, Scene, require_scene
 
@@ -176,6 +177,9 @@ def propagate(
     9.350 +- 0.332 N/m
     """
     require_scene(scene)
+    law = law_for(scene, law)
+    warn_if_other_law(scene, model, law)
+    scene = replace(scene, law=None)  # which is warned of already
     by_law = parted(model, law, rtol, scene.values())
     errors = _checked(std)
     rho = correlation_matrix(list(errors), {} if correlation is None else correlation)

@@ -31,7 +31,8 @@ class CoupledFit:
     Parameters
     ----------
     fit : dict
-        What `fitted` returned at the estimate.
+        What `fitted` returned at the estimate; empty where the search did not settle, which is
+        only where some cuts are outside.
     outside : ndarray of bool, shape (n,)
         Cuts whose load no coupled solution is near to.
     g : ndarray, shape (n,)
@@ -83,22 +84,25 @@ def coupled_fit(
     mu, xi = cuts.shear_modulus, cuts.friction_coefficient
     wear, at = 0.0, frozen(model, xi, 0.0)
     for _ in range(_MOST):
-        before, (_, wear) = wear, best(at)
+        before, (gamma, wear) = wear, best(at)
         at = frozen(model, xi, wear / mu)
         if abs(wear - before) > _SAME * max(wear, before):
             continue
         fit = fitted(at)
         if abs(fit["wear_strength"] - wear) <= _SAME_IN_THE_END * wear:
-            return _with_reach(at, cuts, fit)
+            return _with_reach(at, cuts, fit["toughness"], fit)
         wear = float(fit["wear_strength"])
         at = frozen(model, xi, wear / mu)
+    last = _with_reach(at, cuts, gamma, {})
+    if last.outside.any():  # where kappa is that of the nearest load, a fit may not settle
+        return last
     raise DomainError(
         f"the law 'coupled' has no fit to these forces that {_MOST} steps come to, the last at "
         f"tau_w/mu = {wear / mu:.3g}; choose law='slip' or 'projected'."
     )
 
 
-def _with_reach(at: FrozenLoad, cuts: Cuts, fit: dict[str, Any]) -> CoupledFit:
-    g = np.asarray(fit["toughness"] / (cuts.shear_modulus * cuts.wire_radius))
+def _with_reach(at: FrozenLoad, cuts: Cuts, toughness: float, fit: dict[str, Any]) -> CoupledFit:
+    g = np.asarray(toughness / (cuts.shear_modulus * cuts.wire_radius))
     outside = np.broadcast_to(~np.asarray(at.reaches(g, cuts.stiffening_exponent)), g.shape)
     return CoupledFit(fit, outside, g, at.relative_wear)

@@ -44,7 +44,7 @@ class MapPoints:
         Correlation of the errors of pairs of these quantities [-]; 0 for those left out.
     law : str, optional
         The law of dissipation that the wear strength was identified by, "projected" or "slip": a
-        map of the other refuses it. None where it belongs to any.
+        map of the other refuses it; by default that of the scene. None where it belongs to any.
 
     Raises
     ------
@@ -127,6 +127,8 @@ class MapPoints:
             checked[name] = error.checked(value)
             broadcast_shape((error.name, *NAMES), (checked[name], *self.scene.values()))
         correlation_matrix(list(checked), self.correlation)
+        if self.law is None:
+            object.__setattr__(self, "law", self.scene.law)
         if self.law is not None and self.law not in (*LAWS, AUTO):
             raise InputError(
                 f"the law of map points must be one of {', '.join(LAWS)}, {AUTO}, or None, but is "

@@ -14,7 +14,10 @@ from surrogate import (
     Scene,
     classify,
     cutting_force,
+    force_gradient,
     identify,
+    propagate,
+    transition_radius,
 )
 from surrogate.choosing import laws
 from surrogate.scene import LAWS
@@ -58,7 +61,11 @@ def test_auto_keeps_to_the_law_of_the_parameters(coupled, own):
     np.testing.assert_array_equal(force.total, cutting_force(gel(None), law=own).total)
 
 
-@pytest.mark.parametrize("function", [cutting_force, classify])
+def propagated(scene, **options):
+    return propagate(scene, {"toughness": 0.1}, **options)
+
+
+@pytest.mark.parametrize("function", [cutting_force, classify, force_gradient, propagated])
 def test_another_law_is_warned_of_once_with_how_far_it_moves_the_force(coupled, function):
     forces = {law: cutting_force(gel(None), law=law, extrapolate=True).total for law in LAWS}
     for own in LAWS:
@@ -72,6 +79,12 @@ def test_another_law_is_warned_of_once_with_how_far_it_moves_the_force(coupled, 
             moved = 100.0 * np.max(np.abs(forces[law] / forces[own] - 1.0))
             assert percent == [pytest.approx(moved, rel=0.1)]
             assert percent[0] >= moved * (1.0 - 1e-3)
+
+
+def test_a_transition_radius_is_by_the_law_of_the_parameters(coupled):
+    for own in ("projected", "slip"):
+        radius = transition_radius(gel(own))
+        np.testing.assert_array_equal(radius, transition_radius(gel(None), law=own))
 
 
 def test_cheaper_laws_that_are_known_to_be_as_exact_stand_for_the_coupled_law(coupled):
