@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.coupled.dataset import read_coupled
-from surrogate.scene import Scene
+from surrogate.scene import NAMES, Scene
 
 __all__ = ["JudgedRows", "judged_rows"]
 
@@ -42,7 +42,8 @@ class JudgedRows:
         """Return some of the rows."""
         values = (v if isinstance(v, float) else v[some] for v in self.scene.values())
         columns = self.force, self.error_bar, self.held_out
-        return JudgedRows(Scene(*values), *(column[some] for column in columns))
+        scene = replace(self.scene, **dict(zip(NAMES, values, strict=True)))
+        return JudgedRows(scene, *(column[some] for column in columns))
 
     def __len__(self) -> int:
         return len(self.force)

@@ -237,33 +237,6 @@ class Amplification:
         """Return the bound of the error of ln kappa in the nearest cell, whatever the load."""
         return self._of_cell(self.errors, g, alpha)
 
-    def drift(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
-        """Return how far ln kappa of the nearest load and g that are known may be off beyond them.
-
-        Over the load that is not reached it may go on at the largest rate of the cell, and so for
-        each factor e in g; 0 where kappa is known, infinite at alphas where it is not.
-        """
-        at = self._place(g, alpha)
-        x, y = self._clamped(*at)
-        size, direction = load_of(xi, wear, self.largest)
-        whole = self._of_cell(self.growth, g, alpha) * (xi + 0.1 * _log1p(wear))
-        with np.errstate(all="ignore"):
-            left = np.maximum(size - self.reach_at(x, y, direction), 0.0) / size
-            short = self._log_lowest - (at[0] + log_touch(self.touch, at[1]))
-            apart = np.maximum(np.abs(at[0] - x), np.maximum(short, 0.0))
-            drift = np.where(at[1] == y, whole * (left + apart), np.inf)
-        return np.where(np.equal(size, 0.0), 0.0, drift)
-
-    @property
-    def exponents(self) -> tuple[float, float]:
-        """The smallest and the largest alpha at which kappa is known."""
-        low, high = self._ends[1]
-        return float(np.exp(low)), float(np.exp(high))
-
-    def near_error(self, g: Any, alpha: Any) -> Any:
-        """Return the bound of the error of ln kappa in the nearest cell, whatever the load."""
-        return self._of_cell(self.errors, g, alpha)
-
     def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
         y = log(alpha)
         return log(g) - log_touch(self.touch, y), y
