@@ -40,7 +40,7 @@ class JudgedRows:
 
     def taken(self, some: Any) -> JudgedRows:
         """Return some of the rows."""
-        values = (v if isinstance(v, float) else v[some] for v in self.scene.values())
+        values: list[Any] = [v if isinstance(v, float) else v[some] for v in self.scene.values()]
         columns = self.force, self.error_bar, self.held_out
         scene = replace(self.scene, **dict(zip(NAMES, values, strict=True)))
         return JudgedRows(scene, *(column[some] for column in columns))
