@@ -71,6 +71,10 @@ def test_the_script_writes_page_figure_and_costs(tmp_path):
     page = (tmp_path / "models.md").read_text(encoding="utf-8")
     for name in (*FORCE_MODELS, *FITTED_NAMES, "auto", "scikit-learn GPR", "finite elements"):
         assert f"| {name} |" in page
+    for law, model in (("projected", "eq13"), ("coupled", "table"), ("auto", "auto")):
+        assert f"| {law} | {model} |" in page
+    assert "Forces beyond what is stated" in page
+    assert (tmp_path / "law-tradeoff.png").stat().st_size > 5000
     loop = (tmp_path / "prepare.md").read_text(encoding="utf-8")
     for way in ("empty function", "prepared", "cutting_force, auto", "RectBivariateSpline"):
         assert f"| {way} |" in loop

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from surrogate.basics.checks import shown
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 __all__ = [
     "UNKNOWN",
+    "LateRecord",
     "ReadOnly",
     "Record",
     "Shown",
@@ -81,6 +85,44 @@ class Record(Shown):
 
     def __hash__(self) -> int:
         return hash(self._values())
+
+
+class LateRecord(Record):
+    """Base of frozen dataclasses with fields that are computed when one of them is first asked for.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True, slots=True, eq=False)
+    ... class Square(LateRecord):
+    ...     side: float
+    ...     area: float
+    >>> square = Square.later(lambda: {"area": print("asked") or 9.0}, side=3.0)
+    >>> square.side
+    3.0
+    >>> square.area, square.area
+    asked
+    (9.0, 9.0)
+    """
+
+    __slots__ = ("_late",)
+
+    @classmethod
+    def later(cls, late: Callable[[], Mapping[str, Any]], **values: Any) -> Self:
+        """Return a record with some fields, of which a function tells the others."""
+        record = cls.__new__(cls)
+        for name, value in values.items():
+            object.__setattr__(record, name, value)
+        object.__setattr__(record, "_late", late)
+        return record
+
+    def __getattr__(self, name: str) -> Any:
+        """Compute the fields that are not set yet."""
+        if name != "_late" and name in {field.name for field in fields(self)}:  # type: ignore[arg-type]
+            for late, value in self._late().items():
+                object.__setattr__(self, late, value)
+            return object.__getattribute__(self, name)
+        raise AttributeError(f"{type(self).__name__!r} has no attribute {name!r}")
 
 
 UNKNOWN = "unknown"

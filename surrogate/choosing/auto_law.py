@@ -114,9 +114,10 @@ class LawfulTerms:
             return first
         if first[5] != first[5]:
             return self._projected(scene)
-        best = self._better(scene, first, place)
+        kappa = self._factor(place)
+        best = self._better(scene, first, kappa)
         if best[5] + best[6] > self.rtol and self.named is None:
-            finer = self._better(scene, self._slip(scene, place, _table()), place)
+            finer = self._better(scene, self._slip(scene, place, _table()), kappa)
             return finer if finer[5] + finer[6] < best[5] + best[6] else best
         return best
 
@@ -153,11 +154,13 @@ class LawfulTerms:
     def _bettered(self, scene: Any, columns: Terms, mask: Any, place: Place) -> Terms:
         """Return terms of the best law, and where none will do by the best model of slip."""
         first, here = tuple(column[mask] for column in columns), place.at(mask)
-        best = self._better(scene, first, here)
+        kappa = self._factor(here)
+        best = self._better(scene, first, kappa)
         short = best[5] + best[6] > self.rtol
         if self.named is None and short.any():
             some, there = _taken(scene, short), here.at(short)
-            finer = self._better(some, self._slip(some, there, _table()), there)
+            factors = kappa[0][short], kappa[1][short]
+            finer = self._better(some, self._slip(some, there, _table()), factors)
             before = tuple(column[short] for column in best)
             less = finer[5] + finer[6] < before[5] + before[6]
             _put(
@@ -186,28 +189,26 @@ class LawfulTerms:
             return friction, worn, holds, number, int(law), fit, float(error)
         return friction, worn, holds, number, law, fit, error
 
-    def _better(self, scene: tuple[Any, ...], first: Terms, place: Place) -> Terms:
+    def _better(self, scene: tuple[Any, ...], first: Terms, factors: tuple[Any, Any]) -> Terms:
         """Return the terms times kappa where their error then will do or is the smaller one."""
         friction, worn, holds, number, _, fit, of_law = first
-        kappa, own, larger = self._amplified(scene, first, place)
-        error = fit * larger + own
+        kappa, unsure = factors
+        drag = (friction + worn) * kappa
+        # the slip terms may be a larger share of the amplified force than they were of their own
+        error = fit * np.maximum(1.0, kappa) + drag / (self._rest(scene) + drag) * unsure
         better = (error <= self.rtol) | np.logical_not(fit + of_law <= error)
         terms = friction * kappa, worn * kappa, holds, number, 2, error, 0.0
         if np.ndim(better) == 0:
-            return terms if better else first
+            return (*terms[:5], float(error), 0.0) if better else first
         return tuple(np.where(better, a, b) for a, b in zip(terms, first, strict=True))
 
-    def _amplified(
-        self, scene: tuple[Any, ...], first: Terms, place: Place
-    ) -> tuple[Any, Any, Any]:
-        """Return kappa, the bound of its error in the force, and what it does to that of slip."""
+    def _factor(self, place: Place) -> tuple[Any, Any]:
+        """Return kappa, and the bound of its relative error."""
         assert self.kappa is not None
-        kappa = exp(self.kappa.log_at(place))
-        drag = (first[0] + first[1]) * kappa
-        own = drag / (self._rest(scene) + drag) * np.expm1(self.kappa.error_at(place))
-        # the slip terms may be a larger share of the amplified force than they were of their own
-        larger = np.maximum(1.0, kappa)
-        return (kappa, float(own), float(larger)) if type(kappa) is float else (kappa, own, larger)
+        kappa, unsure = exp(self.kappa.log_at(place)), np.expm1(self.kappa.error_at(place))
+        if type(kappa) is float:
+            return kappa, float(unsure)
+        return kappa, np.broadcast_to(unsure, np.shape(kappa))
 
     def _projected(self, scene: tuple[Any, ...]) -> Terms:
         """Return the terms of the projected law, whose error nobody knows where anything rubs."""

@@ -217,7 +217,7 @@ def _test_models() -> str:
         _expect(f"the sum of the parts of {name}", float(parts), float(force.total), 0.0)
     if "gp" in names:
         chosen, process = (cutting_force(scene, name, law="projected") for name in ("auto", "gp"))
-        bound = 2.0 * float(chosen.relative_error or 0.0)
+        bound = 2.0 * float(chosen.fit_error or 0.0)
         _expect(f"the force by {chosen.model}", float(chosen.total), float(process.total), bound)
     return ", ".join(names)
 

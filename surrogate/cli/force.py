@@ -90,7 +90,8 @@ def force_text(record: Record, diameters: bool = False) -> str:
             *(number(wire[key]) for key in ("cleavage", "friction", "wear")),
             wire["model"],
             *([wire["law"]] if record["any_law"] else []),
-            _percent(wire["relative_error"]),
+            _percent(wire["fit_error"]),
+            _percent(wire["law_error"]),
             "yes" if wire["in_domain"] else "no",
         )
         for wire in record["wires"]
@@ -99,13 +100,21 @@ def force_text(record: Record, diameters: bool = False) -> str:
     words = "that of each wire" if is_auto(name) else force_model(name).equation
     parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
     which = ["law"] if record["any_law"] else []
-    header = (*_wire_header(diameters), *parts, "model", *which, "error up to", "model holds")
+    errors = ("fit error", "law error")
+    header = (*_wire_header(diameters), *parts, "model", *which, *errors, "model holds")
     law = "" if record["law"] == PROJECTED else f", law {_LAW_WORDS[record['law']]}"
     text = f"Model {name}, {words}{law}\n" + table(header, rows)
-    unknown = any(wire["relative_error"] != wire["relative_error"] for wire in record["wires"])
+    unknown = any(wire["fit_error"] != wire["fit_error"] for wire in record["wires"])
     if unknown and record["law"] in _UNKNOWN_ERROR:
         text = f"{text}\n{_UNKNOWN_ERROR[record['law']]}"
+    if any(wire["fit_error"] == wire["fit_error"] for wire in record["wires"]):
+        text = f"{text}\n{_ERRORS}"
     return "\n".join([text, *_notes(record)])
+
+
+_ERRORS = """\
+The force may be off by both errors together: by that of the fit beside finite elements of the same
+law, and by that of the law beside ones on which the wire rubs."""
 
 
 def _notes(record: Record) -> list[str]:

@@ -226,18 +226,25 @@ def _draw_total(
         if where.any():
             line = _with_ends(where, holds, total)
             handles += ax.plot(x, line, "k", ls=dashes, lw=width, zorder=3, label=label)
-    error = np.broadcast_to(
-        np.nan if force.relative_error is None else force.relative_error, x.shape
-    )
+    error, whose = _shown_error(force, x.shape)
     known = holds & np.isfinite(error) & (error > 0.0)
     if known.any():
         low, high = total * (1.0 - error), total * (1.0 + error)
-        label = f"its error, up to {100.0 * float(np.max(error[known])):.2g} %"
+        label = f"{whose}, up to {100.0 * float(np.max(error[known])):.2g} %"
         band = ax.fill_between(
             x, low, high, where=known, color=GREY, alpha=0.45, lw=0, zorder=2, label=label
         )
         handles.append(band)
     return handles
+
+
+def _shown_error(force: CuttingForce, shape: tuple[int, ...]) -> tuple[Any, str]:
+    """Return the error of force, or that of its fit where nobody knows that of the law."""
+    if force.relative_error is None or force.fit_error is None:
+        return np.full(shape, np.nan), ""
+    if np.isfinite(force.relative_error).any():
+        return np.broadcast_to(force.relative_error, shape), "its error"
+    return np.broadcast_to(force.fit_error, shape), "its fit's error"
 
 
 def _with_ends(where: Any, holds: Any, total: Array) -> Array:

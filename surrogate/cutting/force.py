@@ -17,14 +17,12 @@ from surrogate.basics.checks import (
     shown,
 )
 from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply
-from surrogate.basics.records import Record
+from surrogate.basics.records import LateRecord
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.effective import doubt_of_law
 from surrogate.choosing.laws import (
     PROJECTED,
-    SLIP,
     AnyLaw,
-    force_bound,
     of_law,
     require_known_load,
 )
@@ -40,7 +38,7 @@ __all__ = ["CuttingForce", "cutting_force", "force_of", "warn_if_other_law"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CuttingForce(Record):
+class CuttingForce(LateRecord):
     """A steady cutting force per unit sample thickness and the parts that it is the sum of.
 
     Every quantity is a float where the scene's all are numbers, else an array of the scene's
@@ -59,25 +57,26 @@ class CuttingForce(Record):
     model : str
         Name of the model; "auto" where the points have several.
     relative_error : float, ndarray or None
-        Known bound of the relative error of `total` [-], `fit_error` and `law_error` together; None
-        where nobody knows one.
+        Known bound of the relative error of `total` beside finite elements on which the wire rubs
+        [-], `fit_error` and `law_error` together; nan where nobody knows it, None for closed forms,
+        of which nobody measured it.
     in_domain : bool or ndarray of bool
         Whether the model's own condition holds.
     chosen : str or ndarray of str
         Name of the model of each point.
     law : str
         The law of dissipation, "projected", "slip" or "coupled"; "auto" where the points have
-        several. Under "projected" and "slip" `relative_error` is beside finite elements of this
-        very law; under "coupled" and "auto" it is beside finite elements on which the wire rubs. It
-        is nan where nobody knows it, as under "slip" where the tip touches the wire at alpha up to
-        3: the slip there depends on how sharp the tip is, which is a notch of 5e-4 R_w here.
+        several.
     laws : str or ndarray of str
         Name of the law of each point.
     fit_error : float, ndarray or None
-        The part of the model: beside finite elements of the law of the point [-].
+        The part of the model: beside finite elements of the law of the point [-]. nan outside the
+        domain, and under "slip" where the tip touches the wire at alpha up to 3: the slip there
+        depends on how sharp the tip is, which is a notch of 5e-4 R_w here.
     law_error : float, ndarray or None
         The part of the law: of its own force beside finite elements on which the wire rubs [-]. 0
-        under "coupled"; None where it was not asked for, under "projected" and "slip".
+        under "coupled", whose error is that of a fit, and where nothing rubs; nan where no such
+        solution is near.
     doubts : tuple of str
         What is to be doubted, in words: one sentence where the law "auto" fell back to "projected",
         as the error of every law is unknown there.
@@ -131,7 +130,7 @@ def cutting_force(
         Relative error that has to be met with "auto" [-], else an `AccuracyError` is raised; by
         default 0.02 where it can be had, and else the best there is. `relative_error` of the result
         says which bound holds. With the law "auto" it is beside finite elements on which the wire
-        rubs, with another one beside finite elements of that law.
+        rubs; with another one beside finite elements of that law, the `fit_error` of the result.
     extrapolate : bool, default False
         Whether to continue a fitted model outside its domain: with the asymptotes in g, and with
         the nearest alpha; and kappa with the nearest load.
@@ -209,7 +208,7 @@ def cutting_force(
     >>> force = cutting_force(gel)
     >>> print(f"{force.total:.1f} N/m by the law {force.law!r}, error {force.relative_error}")
     7.3 N/m by the law 'projected', error nan
-    >>> cutting_force(gel, law="projected").relative_error <= 0.02  # beside that law alone
+    >>> force.fit_error <= 0.02  # beside finite elements of that law
     True
     >>> force = cutting_force(gel, model="eq13")
     >>> print(f"{force.total:.4f} = {force.cleavage:.4f} + {force.friction:.4f} + {force.wear:.4f}")
@@ -290,23 +289,18 @@ def force_of(
     if fitted and not stays and not (holds is True or np.all(holds)):
         require_inside(chosen, values)
         require_known_load(chosen, values)
-    bound = of_law = None
-    if isinstance(chosen, FittedModel) and chosen.law != PROJECTED:
-        bound = force_bound(chosen, values, (cleavage, friction, wear))
-        of_law = None if chosen.law == SLIP else np.zeros(scene.shape) if scene.shape else 0.0
-    force = CuttingForce(
-        total,
-        cleavage,
-        friction,
-        wear,
-        chosen.name,
-        bound,
-        holds,
-        chosen.name,
-        chosen.law,
-        chosen.law,
-        bound,
-        of_law,
+    force = CuttingForce.later(
+        lambda: _errors(chosen, scene),
+        total=total,
+        cleavage=cleavage,
+        friction=friction,
+        wear=wear,
+        model=chosen.name,
+        in_domain=holds,
+        chosen=chosen.name,
+        law=chosen.law,
+        laws=chosen.law,
+        doubts=(),
     )
     return _blanked(force, scene, fitted and stays and not extrapolate)
 
@@ -370,19 +364,35 @@ def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) 
 
 def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.auto import AutomaticTerms, one_name
+    from surrogate.choosing.candidates import OUTSIDE
 
     automatic = AutomaticTerms(scene.values(), rtol)
     total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
     automatic.finish(extrapolate)
     names = automatic.names(number)
-    return CuttingForce(
-        total,
-        cleavage,
-        friction,
-        wear,
-        one_name(names),
-        bound,
-        holds,
-        names,
+    return CuttingForce.later(
+        lambda: _errors(automatic.known.fitted.models[OUTSIDE], scene, bound),
+        total=total,
+        cleavage=cleavage,
+        friction=friction,
+        wear=wear,
+        model=one_name(names),
+        in_domain=holds,
+        chosen=names,
+        law=PROJECTED,
+        laws=PROJECTED,
         fit_error=bound,
+        doubts=(),
     )
+
+
+def _errors(model: ForceModel, scene: Scene, fit: Any = None) -> dict[str, Any]:
+    """Return the errors of a force by a model of a named law, or by ones of that law."""
+    if not isinstance(model, FittedModel):
+        return dict.fromkeys(("relative_error", "fit_error", "law_error"))
+    from surrogate.choosing.beside import fit_error, law_error
+
+    values = scene.values()
+    fit = fit_error(model, values) if fit is None else fit
+    of_law = law_error(model, values)
+    return {"relative_error": fit + of_law, "fit_error": fit, "law_error": of_law}

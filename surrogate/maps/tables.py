@@ -36,7 +36,10 @@ def about_map(made: MapRecord) -> list[str]:
 def _columns(made: MapRecord) -> dict[tuple[str, str], Any]:
     """Return every field on the nodes by its name and unit."""
     force, unit = made.force, made.force_unit
-    error = force.relative_error
+    errors = {
+        (name, ""): np.nan if (error := getattr(force, name)) is None else error
+        for name in ("relative_error", "fit_error", "law_error")
+    }
     columns: dict[tuple[str, str], Any] = {
         ("force_per_thickness", unit): force.total,
         ("cleavage", unit): force.cleavage,
@@ -45,7 +48,7 @@ def _columns(made: MapRecord) -> dict[tuple[str, str], Any]:
         ("cleavage_share", ""): made.cleavage_share,
         ("friction_share", ""): made.friction_share,
         ("wear_share", ""): made.wear_share,
-        ("relative_error", ""): np.nan if error is None else error,
+        **errors,
         ("law", ""): force.laws,
         ("in_domain", ""): force.in_domain,
         ("dominant", ""): made.regime.dominant,

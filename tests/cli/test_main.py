@@ -135,7 +135,7 @@ def test_forces_and_regimes_are_by_default_those_of_the_library(capsys):
     assert record["model"] == "auto"
     assert [wire["dominant"] for wire in record["wires"]] == classify(scene).dominant.tolist()
     assert run(f"force {wires} --rtol 0.5 --law projected") == 0
-    assert re.search(r"\d %  +yes\n", capsys.readouterr().out)
+    assert re.search(r"\d %  +unknown  +yes\n", capsys.readouterr().out)
 
 
 @pytest.mark.parametrize("name", [*FORCE_MODELS, *FITTED_NAMES, "auto"])
@@ -173,7 +173,7 @@ def test_a_wire_and_a_toughness_of_nothing_have_a_force(capsys):
     nothing = "--shear-modulus 0 --toughness 0 --wear-strength 1kPa --wire-radius 1mm"
     assert run(f"force {nothing} --model eq13") == 0
     printed = capsys.readouterr().out
-    assert re.search(r"\n1 +unknown +4 +0 +0 +4 +eq13 +unknown +yes", printed)
+    assert re.search(r"\n1 +unknown +4 +0 +0 +4 +eq13 +unknown +unknown +yes", printed)
 
 
 def test_the_threshold_of_regimes(capsys):

@@ -23,6 +23,17 @@ def test_no_force_is_beyond_its_bound_and_the_error_bar_of_the_finite_elements(r
     assert (known & rows.held_out).any()
 
 
+@pytest.mark.parametrize("law", ["projected", "slip", "coupled"])
+@pytest.mark.parametrize("model", ["auto", "table", "power-law"])
+def test_a_named_law_is_off_by_what_it_says(rows, model, law):
+    force = cutting_force(rows.scene, model, law=law, outside="nan")
+    known = np.isfinite(force.relative_error)
+    off = np.abs(force.total / rows.force - 1.0)
+    assert np.all(off[known] <= (force.relative_error + rows.error_bar)[known])
+    assert np.array_equal(force.relative_error, force.fit_error + force.law_error, equal_nan=True)
+    assert (known & rows.held_out).any()
+
+
 def test_a_bound_is_where_solutions_reach_and_nowhere_else(rows):
     _, g, _, xi, wear, alpha = rows.scene.values()
     reached = amplification().share(g, alpha, xi, wear) <= 1.0

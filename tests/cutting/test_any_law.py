@@ -1,11 +1,15 @@
 """The law "auto", the default: what each function makes of it, and what it says where it fails."""
 
+import copy
+import pickle
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import surrogate.choosing.auto_law
+import surrogate.choosing.beside
 from surrogate import (
     AccuracyError,
     MapPoints,
@@ -87,11 +91,41 @@ def test_where_two_percent_cannot_be_had_the_law_of_the_smaller_error_is_taken(
         g = scene.toughness / (scene.shear_modulus * scene.wire_radius)
         load = scene.friction_coefficient, scene.wear_strength / scene.shear_modulus
         own = share * np.expm1(rough.error(g, scene.stiffening_exponent, *load))
-        most = slip.relative_error * np.maximum(1.0, kappa) + own
+        most = slip.fit_error * np.maximum(1.0, kappa) + own
         assert np.all(force.relative_error[more] <= most[more] * (1.0 + 1e-9))
         full_law = more & (force.laws == "coupled")
         np.testing.assert_allclose(force.relative_error[full_law], most[full_law], rtol=1e-9)
     assert short > 20
+
+
+def test_errors_of_named_laws_are_evaluated_when_they_are_asked_for(coupled, monkeypatch):
+    asked = []
+    bound = surrogate.choosing.beside.force_bound
+    monkeypatch.setattr(
+        surrogate.choosing.beside, "force_bound", lambda *a: asked.append(a) or bound(*a)
+    )
+    wires = np.array([0.5e-3, 2e-3])
+    force = cutting_force(replace(WIRES, wire_radius=wires), "table", law="slip")
+    assert not asked
+    wires[:] = force.wear[:] = force.friction[:] = 1.0  # of which no error may be
+    assert np.all(force.law_error > 0.0)
+    assert len(asked) == 1
+    again = cutting_force(replace(WIRES, wire_radius=[0.5e-3, 2e-3]), "table", law="slip")
+    assert np.array_equal(force.relative_error, again.relative_error)
+    assert pickle.loads(pickle.dumps(again)) == copy.deepcopy(again) == again
+    with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+        again.nothing  # noqa: B018
+
+
+def test_the_law_error_is_unknown_where_no_solution_is_near_and_none_where_nothing_rubs(unknown):
+    for law in ("projected", "slip"):
+        force = cutting_force(WIRES, "table", law=law)
+        assert np.isnan(force.law_error).tolist() == unknown.tolist()
+        bare = replace(WIRES, friction_coefficient=0.0, wear_strength=0.0)
+        assert cutting_force(bare, law=law).law_error.tolist() == [0.0] * 4
+    assert np.all(cutting_force(WIRES, "table", law="slip").law_error[1:] > 0.0)
+    with_closed_form = cutting_force(WIRES, "eq13", law="projected")
+    assert with_closed_form.law_error is with_closed_form.relative_error is None
 
 
 def test_the_fallback_is_told_once_in_words(unknown):
@@ -229,7 +263,7 @@ def test_a_figure_is_dotted_where_the_law_is_unknown(coupled):
 def test_a_promise_of_the_unknown_is_refused_and_the_other_laws_promise_named(unknown):
     with pytest.raises(AccuracyError, match=r"known to nobody; give law='projected'"):
         cutting_force(WIRES, rtol=0.5)
-    assert np.all(cutting_force(WIRES, rtol=0.5, law="projected").relative_error <= 0.5)
+    assert np.all(cutting_force(WIRES, rtol=0.5, law="projected").fit_error <= 0.5)
 
 
 def test_the_commands_print_law_error_and_doubt(coupled, capsys):
@@ -239,7 +273,7 @@ def test_the_commands_print_law_error_and_doubt(coupled, capsys):
     assert main(["force", *common, *wires]) == 0
     said = capsys.readouterr().out
     assert "law chosen for each wire" in said
-    assert "projected  unknown" in said
+    assert re.search(r"projected  [0-9.]+ % +unknown", said)
     assert "Note: at 1 of 2 points the error of the force is unknown" in said
     assert main(["force", *common, *wires, "--model", "eq13"]) == 0
     assert "Note" not in capsys.readouterr().out

@@ -42,7 +42,7 @@ def test_coupled_is_kappa_times_slip(coupled, model):
     assert force.wear == pytest.approx(slip.wear * factor, rel=1e-13)
     assert force.law == "coupled"
     assert np.all(force.law_error == 0.0)
-    assert np.all(force.relative_error >= slip.relative_error * slip.total / force.total)
+    assert np.all(force.relative_error >= slip.fit_error * slip.total / force.total)
 
 
 def test_without_friction_and_wear_every_law_is_the_toughness(coupled):

@@ -53,10 +53,10 @@ def test_line_parts_and_wires_are_the_models(model, thickness):
 
 def test_the_band_is_the_bound_of_the_model():
     ax = drawn()
-    (band,) = [one for one in ax.collections if "its error" in str(one.get_label())]
+    (band,) = [one for one in ax.collections if "its fit's error" in str(one.get_label())]
     wanted = cutting_force(Scene(685.0, 1.6, 0.432e-3, 0.1, 7750.0), law="projected")
     top = band.get_paths()[0].vertices[:, 1].max()
-    assert top == pytest.approx(wanted.total * (1.0 + wanted.relative_error), rel=1e-9)
+    assert top == pytest.approx(wanted.total * (1.0 + wanted.fit_error), rel=1e-9)
     assert not [one for one in drawn(model="eq13").collections if "error" in str(one.get_label())]
 
 

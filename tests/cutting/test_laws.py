@@ -49,7 +49,7 @@ def test_slip_by_auto_is_the_table_with_its_bound(installed):
     touches = g >= installed.models["table"].touch(2.5)
     assert touches.tolist() == [True, False, False]
     expected = np.where(touches, np.nan, expected)  # which the sharpness of the tip decides
-    assert force.relative_error == pytest.approx(expected, rel=1e-12, nan_ok=True)
+    assert force.fit_error == pytest.approx(expected, rel=1e-12, nan_ok=True)
 
 
 def test_slip_exceeds_projected(installed):

@@ -12,7 +12,7 @@ import pytest
 
 from surrogate import DomainError, Scene, classify, cutting_force, transition_radius
 from surrogate.choosing.by_name import force_model
-from surrogate.choosing.laws import LAWS, force_bound, of_law
+from surrogate.choosing.laws import LAWS
 from surrogate.cutting.regimes import PARTS
 from surrogate.explorer.numbers import KEYS
 from surrogate.scene import NAMES
@@ -50,10 +50,7 @@ def expected(state, law):
     if not force.in_domain:
         return None
     parts = force.cleavage, force.friction, force.wear
-    if law == "projected":  # whose bound Python has beside closed forms as well
-        bound = force_bound(of_law(force_model("table"), law), scene.values(), parts)
-    else:
-        bound = force.relative_error
+    bound = force.relative_error if law == "auto" else force.fit_error
     return {
         **{"total": force.total, "error": bound},
         **dict(zip(PARTS[1:], parts, strict=True)),

@@ -83,8 +83,8 @@ def test_outside_its_domain_a_map_goes_on_and_says_so(installed):
 
 def test_the_error_bound_of_auto_is_on_the_map(installed):
     made = groups("auto", rtol=0.3, law="projected")
-    assert made.force.relative_error.shape == (61, 61)
-    assert np.nanmax(made.force.relative_error) <= 0.3
+    assert made.force.fit_error.shape == (61, 61)
+    assert np.nanmax(made.force.fit_error) <= 0.3
 
 
 def test_pictures(installed, tmp_path):
