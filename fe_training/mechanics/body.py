@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -38,6 +39,35 @@ _RIGID = 6
 
 #: Elements within this many notch radii may be inverted on the way to equilibrium.
 NOTCH_REACH = 10.0
+
+
+def row_entries(pointers: Index, rows: Index) -> Index:
+    """Return the places of the entries of some rows of a matrix in compressed form."""
+    first, count = pointers[rows], np.diff(pointers)[rows]
+    offset = np.cumsum(count) - count
+    return np.repeat(first - offset, count) + np.arange(count.sum())
+
+
+@dataclass(frozen=True, slots=True)
+class _Pattern:
+    """Compressed rows of the free block.
+
+    Parameters
+    ----------
+    columns, pointers : ndarray of int
+    diagonal : ndarray of int
+        Places of the diagonal entries.
+    transposed : ndarray of int
+        For each entry the place of the one across the diagonal.
+    sums : csr_matrix
+        Makes scaled entries of the matrix of the entries of all elements.
+    """
+
+    columns: Index
+    pointers: Index
+    diagonal: Index
+    transposed: Index
+    sums: sp.csr_matrix
 
 
 class Body:
@@ -194,8 +224,8 @@ class Body:
         return np.concatenate([np.ones(self.displacements), 1.0 / radius])
 
     @cached_property
-    def _pattern(self) -> tuple[Index, Index, Index, Index]:
-        """Row, column, row pointers of the free block, and where each element entry goes."""
+    def _pattern(self) -> _Pattern:
+        """Where entries of the free block are, and what element entries they are the sums of."""
         number = np.full(self.size, -1, dtype=np.int64)
         count = int(self.free.sum())
         number[self.free] = np.arange(count)
@@ -208,11 +238,16 @@ class Body:
         pattern = sp.csr_matrix((np.ones(len(i), dtype=np.int8), (i, j)), shape=(count, count))
         pattern.sum_duplicates()
         pattern.data = np.arange(pattern.nnz)
-        target = np.full(n * m * m, pattern.nnz, dtype=np.int64)
-        target[inside] = np.asarray(pattern[i, j]).ravel()
-        columns, pointers = pattern.indices, pattern.indptr
-        rows = np.repeat(np.arange(count), np.diff(pointers))
-        return rows, columns, pointers, target
+        target = np.asarray(pattern[i, j]).ravel()
+        scale = self.scale[self.free]
+        shape = (pattern.nnz, n * m * m)
+        return _Pattern(
+            pattern.indices,
+            pattern.indptr,
+            pattern.diagonal(),
+            pattern.T.tocsr().data,
+            sp.csr_matrix((scale[i] * scale[j], (target, inside)), shape=shape),
+        )
 
     def element_forces(
         self, u: Array, p: Array, centre: Array | None = None, tangents: bool = True
@@ -312,22 +347,24 @@ class Body:
 
     def matrix(self, tangent: Array) -> sp.csr_matrix:
         """Return the scaled tangent of the free unknowns."""
-        rows, columns, pointers, target = self._pattern
-        data: Array = np.bincount(target, tangent.ravel(), minlength=len(rows) + 1)[:-1].astype(
-            np.float64, copy=False
-        )
-        scale = self.scale[self.free]
-        data = data * (scale[rows] * scale[columns])
-        count = len(pointers) - 1
-        return sp.csr_matrix((data, columns, pointers), shape=(count, count))
+        pattern = self._pattern
+        data = pattern.sums @ tangent.ravel()
+        return self._of_pattern(data)
+
+    def _of_pattern(self, data: Array) -> sp.csr_matrix:
+        pattern = self._pattern
+        count = len(pattern.pointers) - 1
+        return sp.csr_matrix((data, pattern.columns, pattern.pointers), shape=(count, count))
 
     def eliminate(self, matrix: sp.csr_matrix, fixed: NDArray[np.bool_]) -> sp.csr_matrix:
         """Return the matrix with rows and columns of `fixed` free unknowns made the identity."""
-        rows, columns, _, _ = self._pattern
-        off = fixed[rows] | fixed[columns]
-        data = np.where(off, 0.0, matrix.data)
-        data[off & (rows == columns)] = 1.0
-        return sp.csr_matrix((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+        pattern, data = self._pattern, matrix.data.copy()
+        rows = np.flatnonzero(fixed)
+        off = row_entries(pattern.pointers, rows)
+        data[off] = 0.0
+        data[pattern.transposed[off]] = 0.0
+        data[pattern.diagonal[rows]] = 1.0
+        return self._of_pattern(data)
 
     def displacement_gradient(
         self, u: Array, elements: Index | slice = slice(None), centre: Array | None = None

@@ -228,25 +228,33 @@ def polar_arrays_numpy(
     return residual, full if tangents else full[:0]
 
 
+#: Relative difference of the stretches below which their powers are not subtracted.
+_NEAR = 0.05
+
+
 def _power_strain(e: float, m: float) -> float:
     """Return sign(1 + e) |1 + e|^m - 1."""
+    if m == 1.0:
+        return e
     if e > -1.0:
         return math.expm1(m * math.log1p(max(e, -1.0 + 1e-12)))
     return float(-((-1.0 - e) ** m) - 1.0)
 
 
-def _divided_difference(e1: float, e2: float, d: float, m: float) -> float:
-    """Return (l1^m - l2^m)/(l1 - l2) for l = 1 + e and d = l1 - l2 >= 0."""
+def _divided_difference(e1: float, e2: float, f1: float, f2: float, d: float, m: float) -> float:
+    """Return (l1^m - l2^m)/(l1 - l2) for l = 1 + e, l^m = 1 + f and d = l1 - l2 >= 0."""
     l2 = 1.0 + e2
-    if l2 > 0.1 * (1.0 + e1):
+    if d < _NEAR * (1.0 + e1):  # the difference would lose digits
         t = math.log1p(d / l2)
         quotient = m if t < 1e-18 else math.expm1(m * t) / math.expm1(t)
         return float(l2 ** (m - 1.0) * quotient)
-    return (_power_strain(e1, m) - _power_strain(e2, m)) / d
+    return (f1 - f2) / d
 
 
-def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -> float:
-    """Write stress P[4] and tangent A[4, 4] at one point and return det F - 1."""
+def _point(
+    H: Array, p: float, alpha: float, kappa: float, tangents: bool, P: Array, A: Array
+) -> float:
+    """Write stress P[4] and, where wanted, tangent A[4, 4] at a point; return det F - 1."""
     tr = H[0] + H[3]
     a, b, c, e = 2.0 + tr, H[2] - H[1], H[0] - H[3], H[2] + H[1]
     s, d = math.hypot(a, b), math.hypot(c, e)
@@ -258,18 +266,20 @@ def _point(H: Array, p: float, alpha: float, kappa: float, P: Array, A: Array) -
     m = alpha - 1.0
     f1, f2 = _power_strain(e1, m), _power_strain(e2, m)
     ws = (f1 - e1 + f2 - e2) / alpha
-    l1, l2 = max(abs(1.0 + e1), 1e-12), max(abs(1.0 + e2), 1e-12)
-    h1, h2 = 2.0 * m / alpha * l1 ** (m - 1.0), 2.0 * m / alpha * l2 ** (m - 1.0)
-    ratio = 2.0 / alpha * _divided_difference(e1, e2, d, m)
-    if e2 < -1.0:  # l2 < 0: the sum over l1 + l2 is the divided difference of l1 and -l2
-        s_over = _divided_difference(e1, -2.0 - e2, s, m) / alpha
-    else:
-        s_over = ws / max(s, 1e-12) + 1.0 / alpha
+    ratio = 2.0 / alpha * _divided_difference(e1, e2, f1, f2, d, m)
     q = p + kappa * dj
     cs = ws + 0.5 * q * s
     cd = (0.5 * ratio + 1.0 / alpha - 0.5 * q) * d
     ga, gb, gc, ge = cs * sa, cs * sb, cd * dc, cd * de
     P[0], P[1], P[2], P[3] = ga + gc, ge - gb, gb + ge, ga - gc
+    if not tangents:
+        return float(dj)
+    l1, l2 = max(abs(1.0 + e1), 1e-12), max(abs(1.0 + e2), 1e-12)
+    h1, h2 = 2.0 * m / alpha * abs(1.0 + f1) / l1, 2.0 * m / alpha * abs(1.0 + f2) / l2
+    if e2 < -1.0:  # l2 < 0: the sum over l1 + l2 is the divided difference of l1 and -l2
+        s_over = _divided_difference(e1, -2.0 - e2, f1, -2.0 - f2, s, m) / alpha
+    else:
+        s_over = ws / max(s, 1e-12) + 1.0 / alpha
     det_part = q - 2.0 / alpha
     one_s = s_over + 0.5 * det_part
     one_d = 0.5 * ratio - 0.5 * det_part
@@ -329,7 +339,7 @@ def _element_loop(
             pressure = 0.0
             for a in range(pressures):
                 pressure += p[el, a] * psi[q, a]
-            dj = _point(H, pressure, alpha, kappa[el], P, A)
+            dj = _point(H, pressure, alpha, kappa[el], tangents, P, A)
             for a in range(nodes):
                 R[2 * a] += w * (P[0] * g[a, 0] + P[1] * g[a, 1])
                 R[2 * a + 1] += w * (P[2] * g[a, 0] + P[3] * g[a, 1])
@@ -399,7 +409,17 @@ def _polar_loop(
             pressure = 0.0
             for a in range(pressures):
                 pressure += p[el, a] * psi[q, a]
-            dj = _point(H, pressure, alpha, kappa[el], P, A)
+            dj = _point(H, pressure, alpha, kappa[el], tangents, P, A)
+            for m in range(pressures):
+                residual[el, nu + m] += w * dj * psi[q, m]
+            # dF/dsigma of a node besides its slope is N of it times this
+            lean = (P[2] * f0 + P[3] * f1) / rho - (P[0] * s0 + P[1] * s1) / rho**3
+            for a in range(nodes):
+                N, g0, g1 = shape[q, a], g[a, 0], g[a, 1]
+                R[2 * a] += w * ((P[0] * g0 + P[1] * g1) / rho + N * lean)
+                R[2 * a + 1] += w * rho * (P[2] * g0 + P[3] * g1)
+            if not tangents:
+                continue
             for a in range(nodes):
                 N, g0, g1 = shape[q, a], g[a, 0], g[a, 1]
                 B[0, 2 * a], B[1, 2 * a] = (
@@ -410,12 +430,6 @@ def _polar_loop(
                 B[0, 2 * a + 1], B[1, 2 * a + 1] = 0.0, 0.0
                 B[2, 2 * a + 1], B[3, 2 * a + 1] = rho * g0, rho * g1
                 area[2 * a], area[2 * a + 1] = g0 * f1 - g1 * f0, g1 * s0 - g0 * s1
-            for m in range(pressures):
-                residual[el, nu + m] += w * dj * psi[q, m]
-            for b in range(nu):
-                R[b] += w * (P[0] * B[0, b] + P[1] * B[1, b] + P[2] * B[2, b] + P[3] * B[3, b])
-            if not tangents:
-                continue
             for b in range(nu):
                 for i in range(4):
                     AB[i, b] = w * (

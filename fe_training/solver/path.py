@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from fe_training.mechanics import ogden
 from fe_training.mechanics.body import Body
 from fe_training.solver.equilibrium import (
+    AIM,
+    PASSED_BY,
     Control,
     NewtonOutcome,
     State,
@@ -78,11 +80,18 @@ class Steps:
 
 
 def _attempt(
-    body: Body, state: State, control: Control, target: float, solver: LinearSolver
+    body: Body,
+    state: State,
+    control: Control,
+    target: float,
+    solver: LinearSolver,
+    enough: float = AIM,
 ) -> tuple[State | None, NewtonOutcome]:
     # forces are prescribed at high toughness, where the guard would make Newton's method crawl
     guarded = control is not Control.FORCE
-    found, outcome = equilibrate(body, state, control, target, solver, guarded=guarded)
+    found, outcome = equilibrate(
+        body, state, control, target, solver, guarded=guarded, enough=enough
+    )
     if outcome is not NewtonOutcome.CONVERGED:
         return None, outcome
     if least_determinant(body, found, body.beyond_notch) < LEAST_DETERMINANT:
@@ -106,7 +115,9 @@ def follow(
     steps: Steps,
     solver: LinearSolver,
 ) -> Iterator[State]:
-    """Yield the equilibria on the way to `end`, the last of them there.
+    """Yield states on the way to `end`, the last of them the equilibrium there.
+
+    Those that are only passed by have residuals below :data:`PASSED_BY`.
 
     Parameters
     ----------
@@ -135,13 +146,14 @@ def follow(
         there = here + sign * step
         if sign * (end - there) < 0.2 * step:
             there = end
-        found, outcome = _attempt(body, state, control, there, solver)
+        enough = AIM if there == end else PASSED_BY
+        found, outcome = _attempt(body, state, control, there, solver, enough)
         if found is None:
             size = 0.5 * min(size, abs(there - here))
             if size < _SMALLEST_SHARE * steps.first:
                 raise PathStalledError(state, control, there, outcome)
             continue
-        state, here = found, there
+        state, here = found, end if there == end else control_value(body, found, control)
         if state.iterations <= _QUICK:
             size = min(size * _GROWTH, steps.largest)
         state = replace(state, step=size)
