@@ -1,8 +1,9 @@
 """Up to which load kappa is known: where the process knows it, and paths went.
 
-First the loads at which the standard deviation of ln kappa is small enough, but no larger ones than
-those that the nearest paths reached. Then the reach is taken back from every load at which the
-bound of the error, of rows left out, of the process or of its polynomial, is too large.
+First the loads at which the standard deviation of the force is small enough, but no larger ones
+than those that the nearest paths reached. Then the reach is taken back from every load at which the
+bound of the error, of rows left out, of the process or of its polynomial, is too large. What kappa
+may be off counts in the force by the share that friction and wear have of it.
 """
 
 from __future__ import annotations
@@ -16,21 +17,26 @@ from fe_training.coupled.loads import edge_of, samples_of
 from fe_training.coupled.process import LoadProcess, variables
 from fe_training.coupled.rows import FitRows
 from fe_training.coupled.terms import polynomial_of
+from surrogate import contact_functions
+from surrogate.contact.coordinates import log_touch
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
 
 __all__ = ["KNOWN", "MOST_ERROR", "bounds_of", "first_reach", "trimmed"]
 
 Array = NDArray[np.float64]
 
-#: Standard deviation of ln kappa up to which it counts as known.
+#: Standard deviation of the force up to which kappa counts as known.
 KNOWN = 0.01
 
 #: The same with the base of a row left out, up to which its error counts.
 _LEFT_OUT_KNOWN = 2.0 * KNOWN
 
-#: Bound of the error of ln kappa from which on the reach is taken back, by how much at a time, and
+#: Bound of the error of the force from which on the reach is taken back, by how much at a time, and
 #: how often at most.
 MOST_ERROR, _TAKEN_BACK, _ROUNDS = 0.03, 0.8, 25
+
+#: Least share of the force that friction and wear are taken to have.
+_LEAST_PART = 0.3
 
 #: Factor of the error of a row, and of the standard deviation where there is none.
 _SAFETY, _DEVIATIONS = 1.5, 3.0
@@ -62,8 +68,8 @@ def first_reach(
                 np.log1p(shares * wear),
             ]
         )
-        std = process.predict(ray)[1]
-        known = np.flatnonzero(std > KNOWN)
+        mean, std = process.predict(ray)
+        known = np.flatnonzero(std * part_of(ray, mean, process.touch) > KNOWN)
         last = (
             shares[known[0] - 1] if len(known) and known[0] else (0.0 if len(known) else shares[-1])
         )
@@ -96,13 +102,23 @@ def _nearby(
     return float(np.exp(weights @ sizes / weights.sum()))
 
 
+def part_of(points: Array, log_kappa: Array, touch: tuple[float, ...]) -> Array:
+    """Return the share that friction and wear have of the force, 0.3 at least."""
+    x, y, xi, w = points.T
+    g = np.exp(x + log_touch(touch, y))
+    contact = contact_functions(g, np.exp(y), extrapolate=True)
+    drag = 2.0 * (np.expm1(w) * contact.slip_arc + xi * contact.slip_load) * np.exp(log_kappa)
+    return np.asarray(np.maximum(drag / (g + drag), _LEAST_PART))
+
+
 def trimmed(bare: Amplification, process: LoadProcess, rows: FitRows) -> Amplification:
     """Return kappa with its polynomial, the reach taken back from where it may be far off."""
     kappa = bare
     for _ in range(_ROUNDS):
         kappa = replace(kappa, polynomial=polynomial_of(kappa, process, rows))
         points, bound = bounds_of(kappa, process, rows)
-        bad = points[bound > MOST_ERROR]
+        part = part_of(points, kappa.polynomial(*points.T), kappa.touch)
+        bad = points[bound * part > MOST_ERROR]
         if not len(bad):
             break
         reach = kappa.reach.copy()
