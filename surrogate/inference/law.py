@@ -118,7 +118,7 @@ def lawful_fit(
         raise AccuracyError(
             f"rtol must be met beside finite elements on which the wire rubs, but how far rtol = "
             f"{rtol:g} is from being met nobody knows, as {why}; give law='projected', whose own "
-            "finite elements rtol is beside then, or rtol=None."
+            "finite elements rtol is beside then, or leave rtol out."
         )
     return _named(model, PROJECTED, rtol, cuts, best, fitted, why)
 
@@ -175,7 +175,7 @@ def _require_accuracy(
         raise AccuracyError(
             f"rtol must be met at all cuts, but rtol = {rtol:g} is not under the law 'coupled', "
             f"whose friction and wear are up to {worst:.2g} off; give rtol={rounded_up(worst)} or "
-            "more, or rtol=None."
+            "more, or leave rtol out."
         )
 
 

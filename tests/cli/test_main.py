@@ -229,7 +229,7 @@ def test_version(capsys):
         (f"regime {SCENE} --wire-radius 1mm --threshold 0.5", "more than 0.5"),
         ("identify --example --confidence 95", "0.95 for 95 %"),
         ("identify --example --model eq9", "not linear"),
-        ("identify --example --rtol 1e-9", "give --rtol 0.0"),
+        ("identify --example --law projected --rtol 1e-9", "give --rtol 0.0"),
         (f"force {SCENE} --wire-radius 1um", "give --extrapolate to"),
         (f"regime {SCENE} --wire-radius 1mm --model eq99", "eq99"),
         ("identify --example --plot fit.doc", "choose .png, .pdf or .svg"),
