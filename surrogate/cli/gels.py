@@ -53,7 +53,11 @@ def run_identify(options: argparse.Namespace) -> int:
         raise InputError("--example is one gel of its own; leave out --by and FILE.")
     if len(options.file) < 2 and not options.by:
         return run_one(options)
-    check_outputs(outputs_of(options), [*options.file, *(options.material or [])])
+    pairs_file = _beside(options.csv) if options.csv else None
+    check_outputs(
+        {**outputs_of(options), "--csv, the pairs": pairs_file},
+        [*options.file, *(options.material or [])],
+    )
     gels = _gels(options)
     comparison = compare_gels({name: gel.fit for name, gel in gels.items()}, options.confidence)
     if options.plot:
@@ -62,6 +66,7 @@ def run_identify(options: argparse.Namespace) -> int:
         save_gels(comparison.gels, options.plot)
     if options.csv:
         _write(gels, options.csv)
+        _write_pairs(comparison, str(pairs_file))
     first = next(iter(gels.values())).fit
     record = {
         "version": __version__,
@@ -72,7 +77,7 @@ def run_identify(options: argparse.Namespace) -> int:
         "gels": {name: gel.record for name, gel in gels.items()},
         "comparisons": [_pair_record(pair, comparison) for pair in comparison.pairs],
         "comparisons_rest_on": list(comparison.rests_on),
-        "written": [file for file in (options.plot, options.csv) if file],
+        "written": [file for file in (options.plot, options.csv, pairs_file) if file],
     }
     print_record(options, record, lambda told: _text(told, gels, options.verbose))
     doubted = any(gel.record["objections"] or gel.measurements.warnings for gel in gels.values())
@@ -271,4 +276,49 @@ def _write(gels: Mapping[str, _Gel], file: str) -> None:
         f"law {first.law}",
         f"low and high are the ends of {100.0 * first.confidence:.4g} % intervals",
     ]
+    write_csv(file, columns, about)
+
+
+def _beside(file: str) -> str:
+    """Return the name of the table of pairs beside that of the gels.
+
+    Examples
+    --------
+    >>> _beside("out/gels.csv")
+    'out/gels-pairs.csv'
+    """
+    stem, ending = os.path.splitext(file)
+    return f"{stem}-pairs{ending}"
+
+
+def _write_pairs(comparison: Comparison, file: str) -> None:
+    """Write one row a pair; without numbers of one that is not compared."""
+    pairs = comparison.pairs
+    records = [_pair_record(pair, comparison) for pair in pairs]
+
+    def column(values: Sequence[Any]) -> list[str]:
+        return [
+            "" if value is None or not math.isfinite(value) else repr(value) for value in values
+        ]
+
+    def differs(told: Sequence[Any]) -> list[str]:
+        return [{None: "", True: "yes", False: "no"}[one] for one in told]
+
+    columns: dict[tuple[str, str], Any] = {
+        ("first", ""): [pair.first for pair in pairs],
+        ("second", ""): [pair.second for pair in pairs],
+        ("differ", ""): differs([record["differ"] for record in records]),
+        ("p", ""): column([pair.p for pair in pairs]),
+        ("p_adjusted", ""): column([pair.p_adjusted for pair in pairs]),
+    }
+    for name, unit in (("toughness", "J/m^2"), ("wear_strength", "Pa")):
+        told = [record[name] or {} for record in records]
+        ends = [one.get("interval", (math.nan, math.nan)) for one in told]
+        columns[f"{name}_difference", unit] = column([one.get("value") for one in told])
+        columns[f"{name}_low", unit] = column([low for low, _ in ends])
+        columns[f"{name}_high", unit] = column([high for _, high in ends])
+        columns[f"{name}_p_adjusted", ""] = column([one.get("p_adjusted") for one in told])
+        columns[f"{name}_differs", ""] = differs([one.get("differs") for one in told])
+    columns["not_compared", ""] = ["; ".join(pair.objections) for pair in pairs]
+    about = [f"pairs of gels by wirecut identify {__version__}", *comparison.rests_on]
     write_csv(file, columns, about)

@@ -171,7 +171,8 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
     add(
         "--csv",
         metavar="TABLE",
-        help="write the fitted line and its band; of several gels one row of results for each",
+        help="write the fitted line and its band; of several gels one row of results for each, and "
+        "into NAME-pairs.csv beside it one row for each pair",
     )
     add_table_options(command, thickness="append")
     add_record_options(command)

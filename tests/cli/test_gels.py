@@ -249,3 +249,24 @@ def test_gels_of_which_one_is_beyond_coupled_solutions_are_all_by_the_papers_law
     assert code == 2
     assert err.startswith("wirecut: harsh: coupled solutions do not reach")
     assert "--law slip" in err
+
+
+def test_pairs_are_written_beside_the_gels(run, lab):
+    code, out, _ = run("soft.csv tough.csv falling.csv --shear-modulus 30kPa --csv gels.csv --json")
+    record = json.loads(out)
+    assert code == 3
+    assert record["written"] == ["gels.csv", "gels-pairs.csv"]
+    lines = [x for x in (lab / "gels-pairs.csv").read_text().splitlines() if x[0] != "#"]
+    first, *others = csv.DictReader(lines)
+    pair = record["comparisons"][0]
+    assert (first["first"], first["second"], first["differ"]) == ("soft", "tough", "yes")
+    assert float(first["toughness_difference_J_per_m2"]) == pair["toughness"]["value"]
+    assert float(first["wear_strength_high_Pa"]) == pair["wear_strength"]["interval"][1]
+    assert float(first["p_adjusted"]) == pair["p_adjusted"]
+    for other in others:
+        assert other["differ"] == other["p"] == other["toughness_low_J_per_m2"] == ""
+        assert "falling should not be used" in other["not_compared"]
+    (lab / "gels-pairs.csv").write_text((lab / "soft.csv").read_text())
+    code, _, err = run("gels-pairs.csv tough.csv --shear-modulus 30kPa --csv gels.csv")
+    assert code == 2
+    assert "gels-pairs.csv" in err

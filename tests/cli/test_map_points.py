@@ -158,10 +158,11 @@ def test_a_result_of_the_other_law_gives_a_map_of_that_law(run, lab):
     assert "was identified by the law 'slip', under which no wires are designed" in err
 
 
-def test_another_material_that_fits_is_left_out_of_a_map_that_is_not_its_own(run, lab):
+@pytest.mark.parametrize("std", [0.3, 0.6])
+def test_another_material_that_fits_is_left_out_of_a_map_that_is_not_its_own(run, lab, std):
     (lab / "two.csv").write_text(
         "wire_radius_mm,force_per_thickness_N_per_m,force_std_N_per_m\n"
-        "0.1,4.7,0.3\n0.2,7.9,0.3\n0.4,13.9,0.3\n0.5,17.2,0.3\n"
+        f"0.1,4.7,{std}\n0.2,7.9,{std}\n0.4,13.9,{std}\n0.5,17.2,{std}\n"
     )
     fit = json.loads(run("identify two.csv --shear-modulus 685Pa --json")[1])
     others = [mode["wear_strength"] for mode in fit["modes"][1:] if mode["admitted"]]
@@ -172,5 +173,5 @@ def test_another_material_that_fits_is_left_out_of_a_map_that_is_not_its_own(run
     assert {row["y"] for row in made["points"]} >= {fit["toughness"]}
     left = [note for note in made["notes"] if note.startswith("another material that fits is left")]
     shown = {row["points"] for row in made["points"]}
-    assert len(left) + len(shown) == 1 + len(others)
-    assert left
+    assert len(shown) == 1  # also where the errors of the wear strengths overlap
+    assert len(left) == len(others)

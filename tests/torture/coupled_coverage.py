@@ -16,7 +16,7 @@ from surrogate.coupling.frozen import frozen
 from surrogate.errors import WirecutError
 from surrogate.inference.continuation import contact_error
 
-__all__ = ["Rubbed", "held", "rubbed"]
+__all__ = ["Rubbed", "held_by", "rubbed"]
 
 NOISE, SHARES = (0.01, 0.1), (0.1, 0.9)
 
@@ -93,7 +93,7 @@ def rubbed(random):
     return Rubbed(gamma, relative * mu, stated, kinds)
 
 
-def held(experiment, **changes):
+def held_by(experiment, **changes):
     """Return the law that "auto" took and whether the intervals hold the truth, or None."""
     try:
         fit = surrogate.identify(**{**experiment.stated, **changes})

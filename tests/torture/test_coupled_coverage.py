@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from surrogate.inference.quantiles import normal_quantile
-from torture.coupled_coverage import held, rubbed
+from torture.coupled_coverage import held_by, rubbed
 
 MOST, FALSE_ALARM = 60, 1e-3
 
 
-@pytest.mark.torture
+@pytest.mark.slow
 def test_intervals_of_the_law_auto_hold_the_truth():
     random = np.random.default_rng(1)
-    results = [held(rubbed(random)) for _ in range(MOST)]
+    results = [held_by(rubbed(random)) for _ in range(MOST)]
     coupled = np.array([inside for law, inside in filter(None, results) if law == "coupled"])
     assert len(coupled) > MOST // 2
     # at least as often as a share of 95 % falls below by chance once in a thousand
