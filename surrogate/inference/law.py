@@ -118,7 +118,7 @@ def lawful_fit(
         raise AccuracyError(
             f"rtol must be met beside finite elements on which the wire rubs, but how far rtol = "
             f"{rtol:g} is from being met nobody knows, as {why}; give law='projected', whose own "
-            "finite elements rtol is beside then, or rtol=None."
+            "finite elements rtol is beside then, or leave rtol out."
         )
     return _named(model, PROJECTED, rtol, cuts, best, fitted, why)
 
@@ -142,7 +142,7 @@ def _named(
     _require_exponent(lawful, cuts)
     solved = coupled_fit(lawful, cuts, best, fitted)
     if solved.outside.any():
-        raise DomainError(f"{solved.reach_in_words(cuts)}; choose law='slip' or 'projected'.")
+        raise DomainError(f"{solved.reach_in_words(cuts)}; choose law='slip' or law='projected'.")
     if rtol is not None and is_auto(model):
         _require_accuracy(lawful, cuts, solved.g, solved.relative_wear, rtol)
     every = "the cut" if cuts.force.size == 1 else f"all {cuts.force.size} cuts"
@@ -157,7 +157,7 @@ def _require_exponent(model: CoupledModel, cuts: Cuts) -> None:
     if not low <= alpha <= high:
         raise DomainError(
             f"coupled solutions are of alpha from {low:.3g} to {high:.3g}, but alpha = {alpha:.4g} "
-            "here; choose law='slip' or 'projected'."
+            "here; choose law='slip' or law='projected'."
         )
 
 
@@ -175,7 +175,7 @@ def _require_accuracy(
         raise AccuracyError(
             f"rtol must be met at all cuts, but rtol = {rtol:g} is not under the law 'coupled', "
             f"whose friction and wear are up to {worst:.2g} off; give rtol={rounded_up(worst)} or "
-            "more, or rtol=None."
+            "more, or leave rtol out."
         )
 
 
