@@ -291,7 +291,8 @@ def identification_text(record: Record) -> str:
     The record also names the `file` and the origin of the `forces`, and the `picture` or None, and
     says whether it is to be `verbose`.
     """
-    head = f"{len(record['wires'])} forces, {record['forces']}, from {record['file']}"
+    count = len(record["wires"])
+    head = f"{count} force{'s' if count > 1 else ''}, {record['forces']}, from {record['file']}"
     picture = f"Figure written to {record['picture']}" if record["picture"] else ""
     if not record["verbose"]:
         return brief(
@@ -334,6 +335,8 @@ def _reservations(record: Record) -> list[str]:
 
 def _remarks(record: Record) -> list[str]:
     remarks = [f"Warning: {sentence}." for sentence in _reservations(record)]
+    if record["objections"]:
+        return remarks
     undecided = [each for each in record.get("undecided", ()) if not is_answer(each)]
     remarks += [f"Undecided: {sentence}." for sentence in undecided]
     if record.get("further_wire_words"):

@@ -113,7 +113,13 @@ def _implausible(fit: Estimate) -> Iterator[str]:
 
 
 def _too_few_radii(fit: Estimate) -> Iterator[str]:
-    if (distinct := np.unique(fit.wire_radius).size) < 3:
+    distinct = np.unique(fit.wire_radius).size
+    if distinct == 1:
+        yield (
+            f"only one wire: it cannot show whether the forces lie on a {_shape(fit)}; cut with "
+            "other wires as well"
+        )
+    elif distinct < 3:
         yield (
             f"only {distinct} different radii: they cannot show whether the forces lie on a "
             f"{_shape(fit)}; cut with a third radius between them"
@@ -365,6 +371,12 @@ def exactness(fit: Estimate) -> Iterator[str]:
 
 def _without_scatter(fit: Estimate) -> Iterator[str]:
     if fit.force_std is None and fit.dof == 0:
+        if fit.force.size == 1:
+            yield (
+                f"one force determines the {_shape(fit)} exactly and leaves no measure of scatter: "
+                "the standard error is unknown; cut more often, or give force_std"
+            )
+            return
         yield (
             f"two forces determine the {_shape(fit)} exactly and leave no measure of scatter: "
             "standard errors are unknown; cut more often, or give force_std"

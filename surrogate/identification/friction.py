@@ -117,25 +117,30 @@ does not fit the forces.
     assumed = fit.assumed
     if "friction_coefficient" not in assumed or "shear_modulus" in assumed or not fit.has_scatter:
         return ""
-    parts = [_supposed(fit, friction) for friction in SUPPOSED]
-    return f"Friction was taken to be 0: {'; '.join(parts)}."
-
-
-def _supposed(fit: Estimate, friction: float) -> str:
-    try:
-        return _in_words(fit, with_friction(fit, friction))
-    except DomainError:
-        return f"xi = {friction:g} is beyond what coupled solutions reach"
+    parts, beyond = [], []
+    for friction in SUPPOSED:
+        try:
+            parts.append(_in_words(fit, with_friction(fit, friction)))
+        except DomainError:
+            beyond.append(f"{friction:g}")
+    if beyond:
+        is_or_are = "are" if len(beyond) > 1 else "is"
+        parts.append(f"xi = {' and '.join(beyond)} {is_or_are} beyond what coupled solutions reach")
+    told = "; ".join(filter(None, parts))
+    return f"Friction was taken to be 0: {told}." if told else ""
 
 
 def _in_words(fit: Estimate, other: WithFriction) -> str:
     if not other.fits:
         return f"xi = {other.friction_coefficient:g} does not fit the forces"
-    gamma, tau = (
-        rounded(scale * value, 0.5 * scale * (high - low))
-        for scale, value, (low, high) in (
-            (1.0, other.toughness, fit.toughness_interval),
-            (1e-3, other.wear_strength, fit.wear_strength_interval),
+    parts = [
+        f"{symbol} = {rounded(scale * value, 0.5 * scale * (high - low))} {unit}"
+        for symbol, unit, scale, value, (low, high) in (
+            ("Gamma_o", "J/m2", 1.0, other.toughness, fit.toughness_interval),
+            ("tau_w", "kPa", 1e-3, other.wear_strength, fit.wear_strength_interval),
         )
-    )
-    return f"with xi = {other.friction_coefficient:g}, Gamma_o = {gamma} J/m2 and tau_w = {tau} kPa"
+        if low > 0.0 or fit.profile is None  # else the forces set an upper limit alone
+    ]
+    if not parts:
+        return ""
+    return f"with xi = {other.friction_coefficient:g}, {' and '.join(parts)}"

@@ -17,6 +17,10 @@ VAGUE = 3.0
 """Ratio of an interval's ends from which its quantity counts as undecided."""
 
 
+NOTHING = 1e-6
+"""Share of the larger toughness below which the smaller one is as good as 0."""
+
+
 def undecided(fit: Estimate) -> Iterator[str]:
     """Yield one sentence for each question that the forces leave open.
 
@@ -49,7 +53,7 @@ def wire_in_words(wire: FurtherWire) -> str:
     kind = "both materials" if wire.modes else "the ends of the toughness's interval"
     sentence = (
         f"a wire {2e3 * wire.wire_radius:.3g} mm across would tell most: {low:.4g} N/m for "
-        f"Gamma_o = {wire.toughnesses[0]:.3g} J/m2, {high:.4g} N/m for {wire.toughnesses[1]:.3g} "
+        f"Gamma_o = {_toughness(wire)} J/m2, {high:.4g} N/m for {wire.toughnesses[1]:.3g} "
         f"J/m2 ({kind}; a steel wire breaks at {wire.breaking_force:.2g} N; of those sold from "
         f"{2e3 * wire.searched[0]:.3g} to {2e3 * wire.searched[1]:.3g} mm)"
     )
@@ -63,6 +67,12 @@ def wire_in_words(wire: FurtherWire) -> str:
             f"takes the mean of {wire.cuts:.0f} cuts to tell them by two"
         )
     return f"{sentence}, but no wire in that range tells them apart with a thousand cuts"
+
+
+def _toughness(wire: FurtherWire) -> str:
+    """Return the lower of the two toughnesses, 0 where it is next to nothing."""
+    low, high = wire.toughnesses
+    return f"{low:.3g}" if low > NOTHING * high else "0"
 
 
 def _several(fit: Estimate, profile: Profile) -> Iterator[str]:

@@ -17,6 +17,7 @@ from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import forgotten_friction_in_words
 from surrogate.identification.open_questions import undecided
+from surrogate.inference.inputs import DEFAULT_STIFFENING
 
 __all__ = [
     "MOST_LINES",
@@ -152,6 +153,9 @@ _LAWS = {
 }
 
 
+_ASSUMED = f"alpha was taken to be {number(DEFAULT_STIFFENING)}"
+
+
 def law_in_words(fit: Estimate) -> str:
     """Return which law of friction and wear the numbers belong to, why, and how far it is off.
 
@@ -162,18 +166,18 @@ def law_in_words(fit: Estimate) -> str:
     >>> print(words[:72])
     Law: projected, that of the paper; model 'eq13' has no other. How far it
     """
-    head = f"Law: {_LAWS[fit.law]}"
-    if fit.law_reason:
-        head += f"; {fit.law_reason}"
+    head = f"Law: {_LAWS[fit.law]}; {fit.law_reason}"
+    if "stiffening_exponent" in fit.assumed:
+        head = head.replace(f"alpha = {number(fit.stiffening_exponent)} here", _ASSUMED)
     return f"{head}. {_law_error_in_words(fit)}."
 
 
 def _law_error_in_words(fit: Estimate) -> str:
-    if fit.wear_strength == 0.0 and fit.friction_coefficient == 0.0:
+    if fit.known.wear_strength == 0.0 and fit.friction_coefficient == 0.0:
         return "Without friction and wear all laws are the same"
     if fit.law == COUPLED:
         return "The error of these solutions is part of the intervals"
-    if math.isfinite(fit.law_error):
+    if fit.law_error > 0.0:
         share = rounded_up(100.0 * fit.law_error)
         return (
             f"Its forces are up to {share} % off beside coupled solutions, which is part of no "
@@ -215,7 +219,7 @@ def summary(fit: Estimate) -> str:
     """
     against = list(objections(fit))
     remarks = [f"Warning: {s}." for s in fit_warnings(fit) if s not in against]
-    remarks += [f"Undecided: {sentence}." for sentence in undecided(fit)]
+    remarks += [f"Undecided: {sentence}." for sentence in undecided(fit) if not against]
     return brief(
         [*against_use(against), f"{answer(fit)}.", *remarks],
         rests_on(fit),

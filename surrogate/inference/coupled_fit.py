@@ -98,7 +98,7 @@ def coupled_fit(
         return last
     raise DomainError(
         f"the law 'coupled' has no fit to these forces that {_MOST} steps come to, the last at "
-        f"tau_w/mu = {wear / mu:.3g}; choose law='slip' or 'projected'."
+        f"tau_w/mu = {wear / mu:.3g}; choose law='slip' or law='projected'."
     )
 
 

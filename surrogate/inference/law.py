@@ -142,7 +142,7 @@ def _named(
     _require_exponent(lawful, cuts)
     solved = coupled_fit(lawful, cuts, best, fitted)
     if solved.outside.any():
-        raise DomainError(f"{solved.reach_in_words(cuts)}; choose law='slip' or 'projected'.")
+        raise DomainError(f"{solved.reach_in_words(cuts)}; choose law='slip' or law='projected'.")
     if rtol is not None and is_auto(model):
         _require_accuracy(lawful, cuts, solved.g, solved.relative_wear, rtol)
     every = "the cut" if cuts.force.size == 1 else f"all {cuts.force.size} cuts"
@@ -157,7 +157,7 @@ def _require_exponent(model: CoupledModel, cuts: Cuts) -> None:
     if not low <= alpha <= high:
         raise DomainError(
             f"coupled solutions are of alpha from {low:.3g} to {high:.3g}, but alpha = {alpha:.4g} "
-            "here; choose law='slip' or 'projected'."
+            "here; choose law='slip' or law='projected'."
         )
 
 
