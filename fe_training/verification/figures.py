@@ -49,6 +49,9 @@ _SYMBOLS = {
 }
 
 
+#: Letters of names of which six stand side by side in a legend.
+_SHORT = 16
+
 #: Values below this are drawn on it: rounding.
 _SMALLEST_DRAWN = 1e-8
 
@@ -70,7 +73,8 @@ def draw_study(folder: Path, result: StudyResult) -> list[Path]:
         drawing(ax)
         handles |= {one.get_label(): one for one in ax.get_legend_handles_labels()[0]}
         ax.get_legend().remove()
-    legend_over(figure, list(handles.values()), 6)
+    long = any(len(name) > _SHORT for name in handles)
+    legend_over(figure, list(handles.values()), 3 if long else 6)
     for ax in places[len(drawings) :]:
         ax.remove()
     figure.draw_without_rendering()

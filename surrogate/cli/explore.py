@@ -72,7 +72,7 @@ def run_explore(options: argparse.Namespace) -> int:
     known = _known(options, material)
     fit = _identified(options, known, cuts)
     if fit is not None:
-        known |= {"toughness": fit.toughness, "wear_strength": fit.wear_strength}
+        known |= {"toughness": fit.toughness, "wear_strength": fit.wear_strength, "law": fit.law}
     scene = _scene(known, cuts)
     write_explorer(options.out, scene, cuts, law=options.law, diameters=options.diameters)
     return print_answer(options, _record(options, scene, fit, material, cuts), _words)

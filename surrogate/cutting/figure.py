@@ -32,6 +32,7 @@ from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import AnyLaw, is_chosen, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
+from surrogate.cutting.other_law import law_for
 from surrogate.errors import InputError
 from surrogate.scene import Scene, require_scene
 
@@ -110,7 +111,7 @@ def plot_force(
     >>> ax.get_ylabel()
     'cutting force $F_{ss}/T$ [N/m]'
     """
-    wires, model = _wires(scene), of_law(model, law, any_law=True)
+    wires, model = _wires(scene), of_law(model, law_for(scene, law), any_law=True)
     size = 1.0 if thickness is None else one_number(THICKNESS, thickness)
     radius = np.linspace(0.0, 1.08 * _right_end(wires), _POINTS + 1)[1:]
     curve = force_of(replace(scene, wire_radius=radius), model, rtol, extrapolate=True)

@@ -16,6 +16,7 @@ from surrogate.basics.files import file_name, written_whole
 from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.candidates import OUTSIDE, candidates
 from surrogate.choosing.laws import COUPLED, of_law
+from surrogate.cutting.other_law import law_for
 from surrogate.cutting.regimes import PARTS
 from surrogate.errors import InputError
 from surrogate.explorer.numbers import GEL, data_date, functions_of, page_numbers
@@ -59,7 +60,8 @@ def write_explorer(
     cuts : Measurements, optional
         Own cuts, as `read_measurements` returns them, to be drawn over the curves.
     law : str, default "auto"
-        The law of wear and friction that is shown first, as in `cutting_force`.
+        The law of wear and friction that is shown first, as in `cutting_force`; with "auto" that of
+        the scene's parameters, if they are of a law.
     diameters : bool, default False
         Whether to show diameters of wires instead of radii.
 
@@ -124,7 +126,7 @@ def explorer_page(
         )
     of_law(AUTO, law, any_law=True)
     known = candidates()
-    numbers = page_numbers(known, first, cuts, law, flag("diameters", diameters))
+    numbers = page_numbers(known, first, cuts, law_for(first, law), flag("diameters", diameters))
     parts = {
         "page.css": _part("page.css"),
         "plot.css": f"{_part('plot.css')}{_colours()}",

@@ -175,3 +175,9 @@ def test_the_bare_command_helps(capsys):
     printed = capsys.readouterr().out
     for words in ("forces of several wires", "I want to know a force", "I want a map"):
         assert words in printed
+
+
+def test_parameters_of_a_law_are_drawn_by_it():
+    gel = Scene(685.0, 1.6, [0.1e-3, 0.4e-3], wear_strength=7750.0, law="projected")
+    ax = plot_force(gel, Figure().add_subplot())
+    assert "law projected, error unknown" not in [one.get_label() for one in ax.lines]

@@ -19,7 +19,7 @@ from surrogate.scene import NAMES
 
 GEL = {"mu": 685.0, "Gamma_o": 1.6, "R_w": 0.25e-3, "xi": 0.0, "tau_w": 7750.0, "alpha": 2.0}
 LAW_NAMES = ("auto", *LAWS)
-LIGHT = GEL | {"alpha": 4.0, "xi": 0.004, "tau_w": 20.0, "R_w": 1e-3}
+LIGHT = GEL | {"alpha": 6.0, "xi": 0.004, "tau_w": 20.0, "R_w": 1e-3}
 """So little friction and wear that coupled solutions reach to it."""
 
 
@@ -194,7 +194,6 @@ def test_beyond_the_coupled_solutions_the_page_says_so_and_draws_no_line(page):
     assert page.run(others) >= 1
     for state, words in (
         (LIGHT | {"xi": 0.9}, "more than the load that they reach"),
-        (LIGHT | {"alpha": 2.0}, "they cover α from"),
         (LIGHT | {"R_w": 1e-6}, "outside the table"),
         (LIGHT | {"R_w": 1e-4}, "before the tip touches the wire"),
     ):
