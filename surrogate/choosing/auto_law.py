@@ -23,7 +23,7 @@ from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
-from surrogate.contact.shipped import Fitted, folder_in_use, shipped
+from surrogate.contact.shipped import Fitted, shipped
 from surrogate.coupling.amplification import Amplification, Place
 from surrogate.coupling.shipped import amplification_if_any
 from surrogate.errors import AccuracyError
@@ -39,15 +39,15 @@ Terms = tuple[Any, ...]
 
 def amplification_of_models(named: FittedModel | None = None) -> Amplification | None:
     """Return kappa of the models in use; None where they, or the named one, lack what it needs."""
-    if named is not None and not _slips(named):
+    if not _all_slip(shipped()) or not (named is None or _slips(named)):
         return None
-    return _amplification_of(shipped(), folder_in_use())
+    return amplification_if_any()
 
 
 @cache
-def _amplification_of(fitted: Fitted, folder: str) -> Amplification | None:
-    slip = fitted.slip_bounds is not None and all(map(_slips, fitted.models.values()))
-    return amplification_if_any() if slip else None
+def _all_slip(fitted: Fitted) -> bool:
+    """Return whether all models of a file have the slip law, with measured errors."""
+    return fitted.slip_bounds is not None and all(map(_slips, fitted.models.values()))
 
 
 def _slips(model: FittedModel) -> bool:
