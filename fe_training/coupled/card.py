@@ -77,8 +77,8 @@ def _card(
         "does not touch the wire, the last ones before the ends of paths among them; "
         f"{int(rows.held_out.sum())} of them are of bases that no fit sees.",
         f"- File: {size / 1e3:.1f} kB, a polynomial of {len(kappa.polynomial.coefficients)} terms.",
-        f"- It counts as known where the standard deviation of F_ss is at most {KNOWN:g}, up to the",
-        "  loads that the nearest paths reached, as long as the bound of the error of F_ss is at",
+        f"- It counts as known where the standard deviation of F_ss is at most {KNOWN:g}, up to",
+        "  the loads that the nearest paths reached, as long as the bound of the error of F_ss is at",
         f"  most {MOST_ERROR:g}.",
         "",
         "| error at bases that no fit sees, within reach | |",

@@ -54,6 +54,7 @@ WHOLE = 2**20  # results up to this size are computed at once, in which numpy is
 BLOCK = 2**16  # larger ones this many numbers at a time, to save memory
 AT_ONCE = 2**14  # points of long formulas at a time, whose temporaries stay in the cache
 NORMAL = sys.float_info.min  # smaller numbers have lost digits
+_FLOATS = {float}
 NO_POWER = -99999  # power of two of zero: less than any product of a few numbers has
 
 
@@ -91,7 +92,7 @@ def apply(
     never one of its arguments. Floats reach it as they are, so that what depends on them alone
     is computed once. More than `whole` points are walked in blocks.
     """
-    if all(type(value) is float for value in values):
+    if {*map(type, values)} == _FLOATS:
         return kernel(*values)
     shape = common_shape(values)
     if math.prod(shape) > whole:

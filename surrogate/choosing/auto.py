@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from surrogate.contact.domain import require_inside
 
 WORTH = 0.6  # share of points that need both terms from which both are evaluated at once
 
-__all__ = ["AutomaticTerms", "automatic_contact", "one_name"]
+__all__ = ["AutomaticTerms", "automatic_contact", "named", "one_name"]
 
 
 class AutomaticTerms:
@@ -153,12 +153,7 @@ class AutomaticTerms:
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
-        if type(number) is int:
-            return self.known.names[number]
-        names = np.array(self.known.names)
-        if number.size and number.min() == number.max():
-            return np.broadcast_to(names[number.flat[0]], number.shape)
-        return names[number]
+        return named(self.known.names, number)
 
 
 def _evaluated(
@@ -228,6 +223,22 @@ def automatic_contact(
     return np.array([model.name for model in chosen.models])[code], shape, results
 
 
+def named(names: Sequence[str], number: Any) -> Any:
+    """Return the names of numbers, as a view of one where all are the same.
+
+    Examples
+    --------
+    >>> named(("gp", "table"), 1), named(("gp", "table"), np.array([0, 1])).tolist()
+    ('table', ['gp', 'table'])
+    """
+    if type(number) is int:
+        return names[number]
+    known = np.array(names)
+    if number.size and number.min() == number.max():
+        return np.broadcast_to(known[number.flat[0]], number.shape)
+    return known[number]
+
+
 def one_name(names: str | NDArray[np.str_]) -> str:
     """Return the name that all points share, or else "auto".
 
@@ -240,5 +251,5 @@ def one_name(names: str | NDArray[np.str_]) -> str:
         return names
     if names.size and not any(names.strides):  # a view of one name
         return str(names.flat[0])
-    different = set(names.ravel().tolist())
-    return different.pop() if len(different) == 1 else AUTO
+    first = names.flat[0] if names.size else AUTO
+    return AUTO if np.any(names != first) else str(first)

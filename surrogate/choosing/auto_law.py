@@ -9,20 +9,21 @@ effective numbers there.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
-from surrogate.basics.elementwise import exp, quotient, ratio
+from surrogate.basics.elementwise import exp, quotient, ratio, where
 from surrogate.choosing.accuracy import DEFAULT_RTOL
-from surrogate.choosing.auto import AutomaticTerms
+from surrogate.choosing.auto import AutomaticTerms, named
 from surrogate.choosing.candidates import OUTSIDE, candidates
 from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
-from surrogate.contact.shipped import shipped
+from surrogate.contact.shipped import Fitted, shipped
 from surrogate.coupling.amplification import Amplification, Place
 from surrogate.coupling.shipped import amplification_if_any
 from surrogate.errors import AccuracyError
@@ -38,13 +39,20 @@ Terms = tuple[Any, ...]
 
 def amplification_of_models(named: FittedModel | None = None) -> Amplification | None:
     """Return kappa of the models in use; None where they, or the named one, lack what it needs."""
-    fitted = shipped()
-    functions = fitted.models.values() if named is None else (named,)
-    if fitted.slip_bounds is None or any(
-        not {*TERMS_OF_LAW[SLIP]} <= {*model.functions} for model in functions
-    ):
+    if not _all_slip(shipped()) or not (named is None or _slips(named)):
         return None
     return amplification_if_any()
+
+
+@cache
+def _all_slip(fitted: Fitted) -> bool:
+    """Return whether all models of a file have the slip law, with measured errors."""
+    return fitted.slip_bounds is not None and all(map(_slips, fitted.models.values()))
+
+
+def _slips(model: FittedModel) -> bool:
+    """Return whether a model has the functions of the slip law."""
+    return {*TERMS_OF_LAW[SLIP]} <= {*model.functions}
 
 
 class LawfulTerms:
@@ -100,6 +108,8 @@ class LawfulTerms:
         if self.kappa is None:
             return self._projected(scene)
         place = self.kappa.place(g, scene[5], scene[3], relative)
+        if place.known is False:
+            return self._projected(scene)
         if np.ndim(place.known) == 0:
             if not place.known:
                 return self._projected(scene)
@@ -213,8 +223,8 @@ class LawfulTerms:
     def _projected(self, scene: tuple[Any, ...]) -> Terms:
         """Return the terms of the projected law, whose error nobody knows where anything rubs."""
         friction, worn, holds, number, fit = self._terms(scene, PROJECTED, self.named)
-        unknown = np.where(np.equal(friction + worn, 0.0), 0.0, np.nan)
-        return friction, worn, holds, number, 0, fit, unknown if unknown.ndim else float(unknown)
+        unknown = where(np.equal(friction + worn, 0.0), 0.0, np.nan)
+        return friction, worn, holds, number, 0, fit, unknown
 
     def _terms(self, scene: tuple[Any, ...], law: str, model: FittedModel | None) -> Terms:
         """Return friction, wear, where in the domain, number of the model and bound under a law."""
@@ -267,11 +277,11 @@ class LawfulTerms:
 
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
-        return _named(self.names_of_models, number)
+        return named(self.names_of_models, number)
 
     def laws(self, number: Any) -> Any:
         """Return the names of the laws of these numbers."""
-        return _named(_CODES, number)
+        return named(_CODES, number)
 
 
 def _table() -> FittedModel:
@@ -279,10 +289,6 @@ def _table() -> FittedModel:
     table = shipped().models[OUTSIDE]
     assert isinstance(table, FittedModel)
     return table
-
-
-def _named(names: Any, number: Any) -> Any:
-    return names[number] if type(number) is int else np.array(names)[number]
 
 
 def _taken(scene: tuple[Any, ...], mask: Any) -> tuple[Any, ...]:

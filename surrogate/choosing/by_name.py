@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
 from surrogate.basics.checks import shown
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
@@ -27,6 +31,13 @@ def is_auto(name: object) -> bool:
     return isinstance(name, str) and name == AUTO
 
 
+@cache
+def _shipped() -> Callable[[], Any]:
+    from surrogate.contact.shipped import shipped  # which loads what closed forms do not need
+
+    return shipped
+
+
 def force_model(name: object, argument: str = "model") -> ForceModel:
     """Return the model of that name, which is not "auto"; a model itself is returned as it is.
 
@@ -37,16 +48,13 @@ def force_model(name: object, argument: str = "model") -> ForceModel:
     InputError
         If the model is a fitted one and its file is missing or damaged.
     """
-    if isinstance(name, ForceModel):
+    if isinstance(name, str):  # which takes less time than to ask for an abstract class
+        if name in FORCE_MODELS:
+            return FORCE_MODELS[name]
+        if name in FITTED_NAMES:
+            return _shipped()().models[name]  # type: ignore[no-any-return]
+    elif isinstance(name, ForceModel):
         return name
-    if isinstance(name, str) and name in FORCE_MODELS:
-        return FORCE_MODELS[name]
-    if isinstance(name, str) and name in FITTED_NAMES:
-        from surrogate.contact.shipped import (
-            shipped,  # which loads what the closed forms do not need
-        )
-
-        return shipped().models[name]
     names = ", ".join((*FORCE_MODELS, *FITTED_NAMES, AUTO))
     raise UnknownModelError(
         f"{argument} must be the name of a model or a ForceModel of one's own, but {argument} = "

@@ -30,7 +30,10 @@ near: the law is 'projected', Eq. (S2) of the paper, and tau_w and xi are effect
     >>> doubt_of_law(False) is None
     True
     """
-    count, size = int(np.count_nonzero(unknown)), int(np.size(unknown))
+    if unknown is False:
+        return None
+    one = unknown is True
+    count, size = (1, 1) if one else (int(np.count_nonzero(unknown)), int(np.size(unknown)))
     if not count:
         return None
     where = f"at {count} of {size} points " if count < size else ""

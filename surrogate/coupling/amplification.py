@@ -177,15 +177,23 @@ class Amplification:
         >>> here.known, kappa.log_at(here) == kappa.log_factor(0.1, 6.0, 0.01, 0.02)
         (True, True)
         """
+        size, direction = load_of(xi, wear, self.largest)
+        most = self._largest_reach
+        near = size <= most
+        if near is False or not (near is True or np.any(near)):
+            return Place(False, g, alpha, xi, wear, np.nan)
         x, y = self._place(g, alpha)
         inside = self._inside(x, y)
         if not np.any(inside):
             return Place(inside, x, y, xi, wear, np.nan)
-        size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(*self._clamped(x, y), direction)
         with np.errstate(all="ignore"):
             share = where(size == 0.0, 0.0, np.divide(size, reach))
         return Place(inside & (size <= reach), x, y, xi, _log1p(wear), share)
+
+    @cached_property
+    def _largest_reach(self) -> float:
+        return float(self.reach.max())
 
     def log_at(self, place: Place) -> Any:
         """Return ln kappa at places that are known."""
@@ -270,14 +278,27 @@ class Amplification:
 
     def reach_at(self, x: Any, y: Any, direction: Any) -> Any:
         """Return the reach between its nodes, linear in each of the three."""
-        places = [_node(axis, at) for axis, at in zip(self.axes, (x, y, direction), strict=True)]
-        (i, s), (j, t), (k, u) = places
-        total: Any = 0.0
-        for a, b, c in np.ndindex(2, 2, 2):
-            weight = (s if a else 1.0 - s) * (t if b else 1.0 - t) * (u if c else 1.0 - u)
-            corner = self.reach[i + a, j + b, k + c]
-            total = total + weight * (float(corner) if np.ndim(corner) == 0 else corner)
-        return total
+        (i, s), (j, t), (k, u) = (
+            _node(axis, at) for axis, at in zip(self.axes, (x, y, direction), strict=True)
+        )
+        if type(j) is int and type(k) is int:
+            if type(i) is int:
+                rows = self._rows
+                first, last = (_across(rows[i + a], j, k, t, u) for a in (0, 1))
+            else:  # which leaves a function of x
+                along = _across(self.reach.transpose(1, 2, 0), j, k, t, u)
+                first, last = along[i], along[i + 1]
+        else:
+            first, last = (
+                _across(self.reach.transpose(1, 2, 0), *np.broadcast_arrays(j, k), t, u, i + a)
+                for a in (0, 1)
+            )
+        return (1.0 - s) * first + s * last
+
+    @cached_property
+    def _rows(self) -> list[list[list[float]]]:
+        """The reach as numbers."""
+        return self.reach.tolist()  # type: ignore[no-any-return]
 
     def in_cell(self, cell: tuple[int, int], x: Array, y: Array) -> NDArray[np.bool_]:
         """Return which points are in a cell of `errors` and `growth`."""
@@ -304,6 +325,10 @@ def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]
     (0.5, 0.25)
     """
     rubbed, worn = xi / largest[0], wear / largest[1]
+    if type(rubbed) is float and type(worn) is float:  # the same, and quicker
+        if rubbed > worn:
+            return rubbed, 0.5 * worn / rubbed
+        return worn, 1.0 - 0.5 * rubbed / (worn or 1.0)
     size = where(np.greater(rubbed, worn), rubbed, worn)
     with np.errstate(all="ignore"):
         by_wear, by_friction = (
@@ -311,6 +336,15 @@ def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]
         )
         direction = where(np.greater(rubbed, worn), by_wear, 1.0 - by_friction)
     return size, direction
+
+
+def _across(table: Any, j: Any, k: Any, t: Any, u: Any, *i: Any) -> Any:
+    """Return a table between its nodes in y and in the direction."""
+    if i:
+        a, b, c, d = (table[(j + m, k + n, *i)] for m in (0, 1) for n in (0, 1))
+    else:
+        a, b, c, d = table[j][k], table[j][k + 1], table[j + 1][k], table[j + 1][k + 1]
+    return (1.0 - t) * ((1.0 - u) * a + u * b) + t * ((1.0 - u) * c + u * d)
 
 
 def _between(value: Any, low: float, high: float) -> Any:

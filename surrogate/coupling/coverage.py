@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from surrogate.basics.elementwise import log
 from surrogate.contact.coordinates import touch_range
 from surrogate.contact.domain import g_range
-from surrogate.coupling.amplification import Amplification, load_of
+from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
 
 __all__ = ["bounds_over", "uncovered"]
 
@@ -78,28 +78,31 @@ def _is_covered(kappa: Amplification, box: Box) -> bool:
     size, _ = load_of(xi[1], wear[1], kappa.largest)
     if size == 0.0:
         return True
-    g = g_range(box)
-    if g[0] <= 0.0 or not kappa.lowest <= g[0] <= g[1] <= kappa.highest:
+    g, alpha = g_range(box), box["stiffening_exponent"]
+    if not 0.0 < g[0] <= g[1] < math.inf or g[0] < kappa.lowest or g[1] > kappa.highest:
         return False
-    x, y = _place(kappa, g, box["stiffening_exponent"])
-    if not all(
+    inside = all(
         axis[0] <= ends[0] and ends[1] <= axis[-1]
-        for axis, ends in zip(kappa.axes[:2], (x, y), strict=True)
-    ):
-        return False
+        for axis, ends in zip(kappa.axes[:2], _place(kappa, g, alpha), strict=True)
+    )
+    return inside and size <= _least_reach(kappa, g, alpha, box)
+
+
+def _least_reach(kappa: Amplification, g: Range, alpha: Range, box: Box) -> float:
+    """Return the least reach in a part of a box, at the nearest places that are known."""
+    xi, wear = _loads(box)
     # more of wear and less of friction is nearer to the direction of wear
     direction = tuple(
         load_of(*load, kappa.largest)[1] for load in ((xi[1], wear[0]), (xi[0], wear[1]))
     )
-    nodes = [
-        _with_nodes(axis, ends) for axis, ends in zip(kappa.axes, (x, y, direction), strict=True)
-    ]
-    return bool(size <= np.min(kappa.reach_at(*np.meshgrid(*nodes))))
+    places = (*_place(kappa, g, alpha), direction)
+    nodes = [_with_nodes(axis, ends) for axis, ends in zip(kappa.axes, places, strict=True)]
+    return float(np.min(kappa.reach_at(*np.meshgrid(*nodes))))
 
 
 def _with_nodes(axis: NDArray[np.float64], ends: tuple[float, ...]) -> NDArray[np.float64]:
     inner = axis[(axis > ends[0]) & (axis < ends[1])]
-    return np.unique([*ends, *inner])
+    return np.asarray(np.clip(np.unique([*ends, *inner]), axis[0], axis[-1]))
 
 
 def _worst_corner(kappa: Amplification, box: Box) -> tuple[dict[str, float], float]:
@@ -152,6 +155,8 @@ def bounds_over(kappa: Amplification, g: Range, alpha: Range, box: Box) -> tuple
         first, last = np.searchsorted(edges[1:-1], ends, side="right")
         cells.append(slice(int(first), int(last) + 1))
     xi, wear = _loads(box)
-    load = xi[1] + 0.1 * math.log1p(wear[1])
-    here = tuple(cells)
-    return float(kappa.errors[here].max()), float(kappa.growth[here].max()) * load
+    load, here = xi[1] + 0.1 * math.log1p(wear[1]), tuple(cells)
+    size, _ = load_of(xi[1], wear[1], kappa.largest)
+    share = size / (_least_reach(kappa, g, alpha, box) or 1.0)
+    error = float(kappa.errors[here].max()) * min(max(share, LEAST_SHARE), 1.0)
+    return error, float(kappa.growth[here].max()) * load

@@ -138,6 +138,11 @@ def _horner(rows: Any, variables: Sequence[Any]) -> Any:
     if type(rows) is float:
         return rows
     first, others = variables[0], variables[1:]
+    if not others:  # the same, and quicker
+        value = rows[-1]
+        for row in rows[-2::-1]:
+            value = value * first + row if row != 0.0 else value * first
+        return value
     value = _horner(rows[-1], others)
     for row in rows[-2::-1]:
         value = value * first

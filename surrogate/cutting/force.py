@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -271,7 +271,7 @@ def force_of(
     if is_auto(model):
         require_scene(scene)
         return _blanked(_automatic(scene, rtol, stays), scene, stays and not extrapolate)
-    chosen = force_model(model)
+    chosen: Any = force_model(model)
     require_scene(scene)
     values = scene.values()
     fitted = isinstance(chosen, FittedModel)
@@ -336,15 +336,22 @@ def _summed(scene: Scene, terms: Any) -> Any:
     return apply(parts, scene.values(), (float, float, *terms.dtypes), AT_ONCE)
 
 
-def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) -> CuttingForce:
-    from surrogate.choosing.auto import one_name
+@cache
+def _kernels() -> tuple[Any, Any, Any]:
+    """Return what chooses, which closed forms by name do not load."""
+    from surrogate.choosing.auto import AutomaticTerms, one_name
     from surrogate.choosing.auto_law import LawfulTerms
 
+    return AutomaticTerms, LawfulTerms, one_name
+
+
+def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) -> CuttingForce:
+    _, LawfulTerms, one_name = _kernels()
     lawful = LawfulTerms(scene.values(), rtol, named=model.named)
     total, cleavage, friction, wear, holds, number, law, fit, of_law = _summed(scene, lawful)
     lawful.finish(extrapolate)
     names, laws = lawful.names(number), lawful.laws(law)
-    doubt = doubt_of_law(np.isnan(of_law))
+    doubt = doubt_of_law(of_law != of_law)
     return CuttingForce(
         total,
         cleavage,
@@ -363,9 +370,9 @@ def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) 
 
 
 def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
-    from surrogate.choosing.auto import AutomaticTerms, one_name
     from surrogate.choosing.candidates import OUTSIDE
 
+    AutomaticTerms, _, one_name = _kernels()
     automatic = AutomaticTerms(scene.values(), rtol)
     total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
     automatic.finish(extrapolate)

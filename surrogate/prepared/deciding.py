@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from surrogate.choosing.accuracy import DEFAULT_RTOL
-from surrogate.choosing.by_name import force_model, is_auto
+from surrogate.choosing.auto_law import amplification_of_models
+from surrogate.choosing.by_name import force_model
 from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, Candidates, candidates
 from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
@@ -18,7 +19,6 @@ from surrogate.contact.table import TableModel
 from surrogate.coupling.amplification import Amplification
 from surrogate.coupling.coverage import bounds_over, uncovered
 from surrogate.coupling.model import CoupledModel
-from surrogate.coupling.shipped import amplification
 from surrogate.errors import AccuracyError, DomainError, InputError
 from surrogate.prepared.function import ForceFunction
 from surrogate.prepared.plan import ALPHA, RUBBING, WITHOUT_SHEAR, Plan
@@ -161,13 +161,12 @@ def _coupled(slip: TableModel, kappa: Amplification, box: Ranges, terms: list[st
     return replace(parts, law=COUPLED, kappa=kappa if terms else None, beside=RUBBING)
 
 
-def of_any_law(box: Ranges, terms: list[str], model: Any, rtol: float | None) -> Parts:
+def of_any_law(box: Ranges, terms: list[str], table: Any, rtol: float | None) -> Parts:
     """Return the terms of one law for all scenes: the cheapest that is known to be exact enough.
 
     Without `rtol` one of 0.02 will do, and else the most exact there is. Where none is known it is
     the projected law, with the error of its own finite elements.
     """
-    table = None if is_auto(model) else force_model(model)
     parts = _known_law(box, terms, table, rtol)
     if parts is None:
         auto = table is None
@@ -180,8 +179,8 @@ def of_any_law(box: Ranges, terms: list[str], model: Any, rtol: float | None) ->
 
 def _known_law(box: Ranges, terms: list[str], named_table: Any, rtol: float | None) -> Parts | None:
     """Return the terms by the cheapest law whose error is known; None where that of none is."""
-    kappa = _kappa()
-    if not terms or kappa is None or uncovered(kappa, box) is not None:
+    kappa = amplification_of_models(named_table) if terms else None
+    if kappa is None or uncovered(kappa, box) is not None:
         return None
     slip: Any = (named_table or candidates().fitted.models[OUTSIDE]).under(SLIP)
     if not isinstance(slip, TableModel):
@@ -206,11 +205,6 @@ def _known_law(box: Ranges, terms: list[str], named_table: Any, rtol: float | No
     return min(possible, key=lambda each: each.promised, default=None)
 
 
-def _kappa() -> Amplification | None:
-    """Return kappa of the models in use; None where they have none."""
-    return amplification()
-
-
 def _not_met(box: Ranges, rtol: float, parts: Parts) -> str:
     """Return why no law keeps a promise."""
     error = parts.promised
@@ -222,7 +216,8 @@ def _not_met(box: Ranges, rtol: float, parts: Parts) -> str:
     if error == error:
         best = f"the error of the best law, {parts.law!r}, is up to {error:.2g}"
         return f"{text}{best}; give rtol={rounded_up(error)} or more, or {remedy}."
-    gap = None if (kappa := _kappa()) is None else uncovered(kappa, box)
+    kappa = amplification_of_models()
+    gap = None if kappa is None else uncovered(kappa, box)
     where = f", as at {_words(*gap)}" if gap else ""
     return f"{text}that error is known to nobody{where}; give narrower ranges, {remedy}."
 

@@ -61,6 +61,9 @@ def _amplified(plan: Plan) -> str:
     halved where it is not.
     """
     (name,) = plan.varying
+    first, last = (log(g) - next(iter(plan.lines.values())).touch for g in plan.g_ends())
+    if first < 0.0 <= last:
+        return UNKNOWN  # as the slip jumps at the touch
     low, high = _intervals(plan, name)
     signs: set[int] = set()
     while low.size:

@@ -171,7 +171,8 @@ class Plan:
             summed(times, factors) if times else None,
             summed(plain, factors) if plain else None,
             self._side(touch),
-            self.load.powers(touch) if self.load else (),
+            self.load.powers() if self.load else (),
+            touch - self.load.touch if self.load else 0.0,
         )
 
     def factors(self, name: str) -> dict[str, float]:

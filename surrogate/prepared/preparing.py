@@ -7,10 +7,9 @@ from typing import Any
 
 from surrogate.basics.checks import RTOL, items, mapping, one_number
 from surrogate.choosing.accuracy import DEFAULT_RTOL
-from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.by_name import AUTO, is_auto
 from surrogate.choosing.candidates import TERMS
-from surrogate.choosing.laws import PROJECTED, of_law
-from surrogate.contact.closed_forms import ClosedForm
+from surrogate.choosing.laws import SLIP, AnyLaw, of_law
 from surrogate.errors import InputError
 from surrogate.prepared.deciding import Parts, Ranges, cheapest, named, of_any_law, require
 from surrogate.prepared.function import ForceFunction
@@ -115,15 +114,13 @@ def prepare(
 
 
 def _decided(box: Ranges, terms: list[str], model: Any, law: Any, rtol: float | None) -> Parts:
-    if isinstance(law, str) and law == AUTO:
-        if is_auto(model) or not isinstance(force_model(model), ClosedForm):
-            return of_any_law(box, terms, model, rtol)
-        law = PROJECTED  # as all closed forms are
-    chosen = of_law(model, law)
+    chosen = of_law(model, law, any_law=True)
+    if isinstance(chosen, AnyLaw):
+        return of_any_law(box, terms, chosen.named, rtol)
     if is_auto(chosen):
         return cheapest(box, terms, DEFAULT_RTOL if rtol is None else rtol)
     parts = named(chosen, box, terms)
-    where = "" if law == PROJECTED else ", as it is where the crack's tip touches the wire"
+    where = ", as it is where the crack's tip touches the wire" if law == SLIP else ""
     require(parts.error, rtol, repr(parts.name), where)
     return parts
 

@@ -110,8 +110,9 @@ def _kappa(plan: Plan, dialect: Dialect) -> Iterator[str]:
     load = plan.load
     assert load is not None
     if "y" in load.varies:
-        yield _let(dialect, _VARIABLES["y"], f"{dialect.log}({ALPHA})")
-        touch = _polynomial(list(load.kappa.touch), [_VARIABLES["y"]])
+        row = f"{dialect.log}({ALPHA})"
+        yield _let(dialect, _VARIABLES["y"], f"{row} - ({load.center['y']!r})")
+        touch = f"{_polynomial(list(load.kappa.touch), [row])} + ({load.center['x']!r})"
     else:
         touch = repr(load.touch)
     if "x" in load.varies:

@@ -43,7 +43,9 @@ class Straight:
     side : int
         -1 or 1 where the whole range is short of or past the touch, else 0.
     powers : tuple of float
-        ln kappa in rising powers of x; empty where kappa is 1.
+        ln kappa in rising powers of x + offset; empty where kappa is 1.
+    offset : float
+        As above.
 
     Examples
     --------
@@ -60,6 +62,7 @@ class Straight:
     plain: Line | None
     side: int = 0
     powers: tuple[float, ...] = ()
+    offset: float = 0.0
 
     @property
     def number(self) -> Callable[[float], float]:
@@ -95,12 +98,13 @@ class Straight:
         line, start, sign, constant, slope = self._numbers
         rows, before, after, short, ln = line.rows, line.before, line.after, line.short, np.log
         last, others, exp, times = self.powers[-1], self.powers[-2::-1], np.exp, self.times
+        offset = self.offset
 
         def force(value: float) -> float:
             x = start + sign * float(ln(value))
-            log_kappa = last
+            log_kappa, away = last, x + offset
             for coefficient in others:
-                log_kappa = log_kappa * x + coefficient
+                log_kappa = log_kappa * away + coefficient
             t = (before if x < 0.0 else after) * x + short
             piece = int(t)
             t -= piece
@@ -182,7 +186,7 @@ class Straight:
             (np.add if sign > 0.0 else np.subtract)(start, x, out=x)
             start, sign = 0.0, 1.0
         if self.powers:
-            kappa = horner(self.powers, x, room.kappa[: v.size])
+            kappa = horner(self.powers, x + self.offset, room.kappa[: v.size])
             np.exp(kappa, out=kappa)
         if room.compiled:
             steps = line.before, line.after, line.short
