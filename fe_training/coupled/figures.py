@@ -61,8 +61,8 @@ _OUTCOMES = {
 }
 _OTHER = ("ended otherwise", COLOURS[-1], "P")
 
-#: Shares of the largest load between the greys of the reach.
-_LEVELS = (0.01, 0.03, 0.1, 0.3)
+#: Sizes of loads between the greys of the reach.
+_LEVELS = (0.03, 0.1, 0.3, 0.7)
 _GREYS = ("#ffffff", "#ededed", "#d9d9d9", "#bdbdbd", "#969696")
 
 XI, WEAR = r"friction $\xi$ [-]", r"wear $\tau_w/\mu$ [-]"
@@ -331,10 +331,10 @@ def _reach_map(ax: Axes, kappa: Amplification, direction: float, largest: float)
     places = np.meshgrid(columns, rows)
     reach = largest * kappa.reach_at(*places, np.full_like(places[0], direction))
     touch = np.polynomial.polynomial.polyval(places[1], kappa.touch)
+    g = np.exp(places[0] + touch)
+    reach[(g < kappa.lowest) | (g > kappa.highest)] = np.nan
     levels = largest * np.array(_LEVELS)
-    shown = ax.contourf(
-        np.exp(places[0] + touch), np.exp(places[1]), reach, levels, colors=_GREYS, extend="both"
-    )
+    shown = ax.contourf(g, np.exp(places[1]), reach, levels, colors=_GREYS, extend="both")
     ax.plot(np.exp(touch[:, 0]), np.exp(rows), "k:", lw=0.9)
     return shown
 
