@@ -10,7 +10,7 @@ import numpy as np
 
 from fe_training.markdown import markdown_table
 from surrogate import Identification
-from surrogate.errors import DomainError
+from surrogate.errors import InputError
 from surrogate.inference.profile import Mode
 from surrogate.reading.material import Material
 
@@ -78,7 +78,7 @@ def _verdict(
 ) -> Verdict:
     try:
         fit = identified(law)
-    except DomainError as error:
+    except InputError as error:
         return Verdict(law, "", str(error).rpartition("; ")[0])
     profile = fit.profile
     assert profile is not None  # a fitted model is not linear

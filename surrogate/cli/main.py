@@ -188,10 +188,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     Examples
     --------
-    >>> main(["force", "--shear-modulus", "685Pa", "--toughness", "2 J/m2", "--wire-radius", "1mm"])
+    >>> gel = ["--shear-modulus", "685Pa", "--toughness", "2 J/m2", "--wire-radius", "1mm"]
+    >>> main(["force", *gel, "--model", "eq13"])  # doctest: +ELLIPSIS
     Model eq13, Eq. (13)
-    R_w [mm]  g [-]  F_ss/T [N/m]  cleavage  friction  wear  model  error up to  model holds
-    1         2.92   2             2         0         0     eq13   0 %          yes
+    R_w [mm]  g [-]  F_ss/T [N/m]  cleavage  friction  wear  model  fit error  law error  ...
+    1         2.92   2             2         0         0     eq13   unknown    unknown    yes
     0
     """
     return run_command("wirecut", lambda: _run(arguments))

@@ -30,7 +30,8 @@ def law_for(scene: Scene, law: Any) -> Any:
     ('projected', 'slip', 'auto')
     """
     own = getattr(scene, "law", None)
-    return own if law == AUTO and own not in (None, COUPLED) else law
+    keeps = isinstance(law, str) and law == AUTO and own not in (None, COUPLED)
+    return own if keeps else law
 
 
 def warn_of_other_law(

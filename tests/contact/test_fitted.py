@@ -267,14 +267,19 @@ def test_the_touch(installed):
 def test_the_force_is_made_of_the_contact(model):
     scene = Scene(685.0, 1.6, [1e-4, 4e-4], 0.1, 7750.0, [2.0, 5.0])
     contact = contact_functions(scene.dimensionless_toughness, [2.0, 5.0], model=model)
-    force = cutting_force(scene, model)
+    force = cutting_force(scene, model, law="projected")
     radius = scene.wire_radius
     assert force.wear == pytest.approx(2.0 * radius * 7750.0 * contact.arc, rel=1e-14)
     assert force.friction == pytest.approx(2.0 * radius * 68.5 * contact.normal_load, rel=1e-14)
     np.testing.assert_array_equal(force.total, force.cleavage + force.friction + force.wear)
     assert (force.model, force.chosen) == (model, model)
     dissipation = dissipative_force(
-        scene.dimensionless_toughness, [2.0, 5.0], 0.1, 7750.0 / 685.0, model=model
+        scene.dimensionless_toughness,
+        [2.0, 5.0],
+        0.1,
+        7750.0 / 685.0,
+        model=model,
+        law="projected",
     )
     assert 685.0 * radius * dissipation == pytest.approx(force.friction + force.wear, rel=1e-13)
 

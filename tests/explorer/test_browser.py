@@ -195,7 +195,7 @@ def test_beyond_the_coupled_solutions_the_page_says_so_and_draws_no_line(page):
     for state, words in (
         (LIGHT | {"xi": 0.9}, "more than the load that they reach"),
         (LIGHT | {"R_w": 1e-6}, "outside the table"),
-        (LIGHT | {"R_w": 1e-4}, "before the tip touches the wire"),
+        (LIGHT | {"R_w": 5e-6}, "before the tip touches the wire"),
     ):
         page.set(address("coupled", **state))
         assert words in page.text("says")

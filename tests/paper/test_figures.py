@@ -31,7 +31,16 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 FITTED = ("1c", "map", "misfit")
 FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "specimens", *FITTED)
 PARTS = (
-    *("experiment", "distance", "plateau", "contact", "exponents", "local exponents", "eq13"),
+    *(
+        "experiment",
+        "laws",
+        "distance",
+        "plateau",
+        "contact",
+        "exponents",
+        "local exponents",
+        "eq13",
+    ),
     *("evidence", "blocks", "sizes"),
 )
 
@@ -164,7 +173,10 @@ def test_everything_with_fitted_models(data_file, script, tmp_path, monkeypatch,
     monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted.parent)
     out, page, pictures = tmp_path / "paper", tmp_path / "page.md", tmp_path / "pictures"
     page.write_text("\n".join(f"<!-- {n}: begin -->\nold\n<!-- {n}: end -->" for n in PARTS))
+    readme = tmp_path / "README.md"
+    readme.write_text("<!-- laws: begin -->\nold\n<!-- laws: end -->\n")
     options = ["--data", data_file, "--out", out, "--page", page, "--figures", pictures]
+    options += ["--readme", readme]
     assert script["run"]([str(option) for option in options]) == 1
     printed = capsys.readouterr().out
     assert "3a: not made: the data have no row" in printed  # made-up distances end at 2 R_w
@@ -194,7 +206,10 @@ def test_what_is_missing_is_named_and_the_rest_is_made(
     monkeypatch.setitem(script["draw"].__globals__, "save_figure", lambda figure, file: None)
     page = tmp_path / "page.md"
     page.write_text("\n".join(f"<!-- {n}: begin -->\nold\n<!-- {n}: end -->" for n in PARTS))
+    readme = tmp_path / "README.md"
+    readme.write_text("as it was")
     options = ["--data", data_file, "--out", tmp_path, "--page", page, "--figures", tmp_path]
+    options += ["--readme", readme]
     options += ["--specimens", tmp_path / "none.csv", "--model", "nonsense"]
     assert script["run"]([str(option) for option in options]) == 1
     printed = capsys.readouterr().out
@@ -202,4 +217,4 @@ def test_what_is_missing_is_named_and_the_rest_is_made(
         assert f"{name}: not made: " in printed
     for name in ("2c", "4", "table-1", "contact", "eq13"):
         assert f"{name}: written" in printed
-    assert page.read_text().count("old") == 4  # experiment, evidence, blocks, sizes
+    assert page.read_text().count("old") == 5  # experiment, laws, evidence, blocks, sizes

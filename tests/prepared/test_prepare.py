@@ -123,7 +123,7 @@ def test_the_error_under_the_law_of_slip_is_known_short_of_the_touch():
             gel = Scene(685.0, 1.6, 1e-4, 0.1, 7750.0, alpha)
             force = prepare(gel, ranges={"wire_radius": (low, high)}, law="slip")
             radii = Scene(685.0, 1.6, np.geomspace(low, high, 300), 0.1, 7750.0, alpha)
-            by_point = cutting_force(radii, "table", law="slip").relative_error
+            by_point = cutting_force(radii, "table", law="slip").fit_error
             if np.isnan(by_point).any():
                 assert np.isnan(force.relative_error)
                 with pytest.raises(AccuracyError, match="where the crack's tip touches the wire"):
@@ -171,7 +171,7 @@ def test_the_bound_is_not_below_that_of_any_point():
             law="projected",
         )
         table = by_point.chosen == "table"
-        assert np.all(by_point.relative_error[table] <= force.relative_error * (1.0 + 1e-9) + 0.02)
+        assert np.all(by_point.fit_error[table] <= force.relative_error * (1.0 + 1e-9) + 0.02)
 
 
 def test_what_the_scene_lacks_is_left_out():

@@ -42,7 +42,7 @@ FORCES = {
     "slip": prepare(GEL, ranges={"wire_radius": (3e-5, 3e-3)}, law="slip"),
     "slip, alpha": prepare(GEL, tuple(BOX), BOX, law="slip"),
     "coupled, radius": prepare(TISSUE, ranges={"wire_radius": (4e-4, 2e-3)}, law="coupled"),
-    "coupled, wear": prepare(TISSUE, ("wear_strength",), {"wear_strength": (0.0, 2e3)}, rtol=0.015),
+    "coupled, wear": prepare(TISSUE, ("wear_strength",), {"wear_strength": (0.0, 2e3)}, rtol=0.025),
     "coupled, all": prepare(TISSUE, tuple(LOADS), LOADS, law="coupled"),
     "stiff": prepare(GEL, ("toughness", "stiffening_exponent"), STIFF, "table"),
     "alpha": prepare(GEL, ("stiffening_exponent",), {"stiffening_exponent": (2.0, 9.0)}, "table"),

@@ -30,6 +30,7 @@ MAY_BE_NAN = {  # by the documentation of each result
     "friction_sensitivity",
     *("r_squared", "correlation", "reduced_chi_squared", "profile", "covariance", "leverage"),
     *("condition", "further_wire", "relative_error", "term_shares", "boundaries", "relative_force"),
+    *("fit_error", "law_error"),
 }
 
 
