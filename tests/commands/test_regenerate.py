@@ -304,9 +304,7 @@ def test_the_quick_campaign_makes_models_that_give_forces(tmp_path, capsys):
     forces = []
     for models in ([], ["--models", str(tmp_path)]):
         assert wirecut([*command, *models]) == 0
-        forces.append(
-            json.loads(capsys.readouterr().out)["wires"][0]["force_per_thickness_N_per_m"]
-        )
+        forces.append(json.loads(capsys.readouterr().out)["wires"][0]["total"])
     assert forces[0] != forces[1]
     assert forces[1] == pytest.approx(forces[0], rel=0.02)
 
