@@ -87,12 +87,8 @@ def _share(kappa: Amplification, rows: FitRows) -> Array:
 
 
 def _errors(kappa: Amplification, process: LoadProcess, rows: FitRows) -> Array:
-    """Return the largest bounds by cell; the largest of all where a cell has no known load."""
-    points, bound = bounds_of(kappa, process, rows)
-    table = np.zeros(kappa.errors.shape)
-    for cell in np.ndindex(table.shape):
-        table[cell] = bound[kappa.in_cell(cell, points[:, 0], points[:, 1])].max(initial=0.0)
-    return np.where(table == 0.0, table.max(), table)
+    """Return the largest bounds by cell."""
+    return _largest(kappa, *bounds_of(kappa, process, rows))
 
 
 def _growth(kappa: Amplification) -> Array:
@@ -101,10 +97,15 @@ def _growth(kappa: Amplification) -> Array:
     load = points[:, 2] + 0.1 * points[:, 3]
     with np.errstate(all="ignore"):
         rate = np.where(load > 0.0, np.abs(kappa.polynomial(*points.T)) / load, 0.0)
-    table = np.zeros(kappa.growth.shape)
+    return 1.1 * _largest(kappa, points, rate)
+
+
+def _largest(kappa: Amplification, points: Array, values: Array) -> Array:
+    """Return the largest values by cell; the largest of all where a cell has no point."""
+    table = np.zeros(kappa.errors.shape)
     for cell in np.ndindex(table.shape):
         here = kappa.in_cell(cell, points[:, 0], points[:, 1])
-        table[cell] = 1.1 * rate[here].max(initial=0.0)
+        table[cell] = values[here].max(initial=0.0)
     return np.where(table == 0.0, table.max(), table)
 
 

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.contact.coordinates import log_touch
-from surrogate.coupling.amplification import Amplification
+from surrogate.coupling.amplification import Amplification, edge_of
 
-__all__ = ["LOAD_UNIT", "edge_of", "samples_of"]
+__all__ = ["LOAD_UNIT", "samples_of"]
 
 Array = NDArray[np.float64]
 
@@ -17,14 +17,6 @@ LOAD_UNIT = (0.5, 1.0)
 
 #: Part of the samples that are put on either end of g, and of alpha.
 _MARGIN = 0.06
-
-
-def edge_of(direction: float, unit: tuple[float, float]) -> tuple[float, float]:
-    """Return the load of size 1 in a direction."""
-    return (
-        unit[0] * min(1.0, 2.0 * (1.0 - direction)),
-        unit[1] * min(1.0, 2.0 * direction),
-    )
 
 
 def samples_of(kappa: Amplification, count: int, seed: int = 1) -> Array:
@@ -38,8 +30,6 @@ def samples_of(kappa: Amplification, count: int, seed: int = 1) -> Array:
     low = np.maximum(np.log(kappa.lowest), kappa.axes[0][0] + touch)
     high = np.minimum(np.log(kappa.highest), kappa.axes[0][-1] + touch)
     x = low + place[:, 0] * (high - low) - touch
-    edges = np.array([edge_of(z, kappa.largest) for z in unit[:, 2]])
-    reach = kappa.reach_at(x, y, unit[:, 2])
-    part = (reach * np.sqrt(unit[:, 3]))[:, None]
-    xi, wear = (part * edges).T
+    part = kappa.reach_at(x, y, unit[:, 2]) * np.sqrt(unit[:, 3])
+    xi, wear = (part * most for most in edge_of(unit[:, 2], kappa.largest))
     return np.column_stack([x, y, xi, np.log1p(wear)])

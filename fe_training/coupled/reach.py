@@ -13,13 +13,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fe_training.coupled.loads import edge_of, samples_of
+from fe_training.coupled.loads import samples_of
 from fe_training.coupled.process import LoadProcess, variables
 from fe_training.coupled.rows import FitRows
 from fe_training.coupled.terms import polynomial_of
 from surrogate import contact_functions
 from surrogate.contact.coordinates import log_touch
-from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
+from surrogate.coupling.amplification import LEAST_SHARE, Amplification, edge_of, load_of
 
 __all__ = ["KNOWN", "MOST_ERROR", "bounds_of", "first_reach", "trimmed"]
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -185,6 +185,17 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
         return np.where(condition, yes, no)
     chosen = yes if condition else no
     return chosen if isinstance(chosen, np.ndarray) else float(chosen)
+
+
+def taken(values: Iterable[Any], mask: Any) -> tuple[Any, ...]:
+    """Return some of the points of values that broadcast to a mask; numbers as they are.
+
+    Examples
+    --------
+    >>> taken((2.0, np.array([1.0, 3.0])), np.array([False, True]))
+    (2.0, array([3.]))
+    """
+    return tuple(v if np.ndim(v) == 0 else np.broadcast_to(v, mask.shape)[mask] for v in values)
 
 
 def log(x: Any) -> Any:

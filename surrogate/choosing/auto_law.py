@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
-from surrogate.basics.elementwise import exp, quotient, ratio, where
+from surrogate.basics.elementwise import exp, quotient, ratio, taken, where
 from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto import AutomaticTerms, named
 from surrogate.choosing.candidates import OUTSIDE, candidates
@@ -136,13 +136,13 @@ class LawfulTerms:
         shape = np.broadcast_shapes(*map(np.shape, scene))
         known = np.broadcast_to(place.known, shape)
         everywhere = bool(known.all())
-        some = scene if everywhere else _taken(scene, known)
+        some = scene if everywhere else taken(scene, known)
         here = place if everywhere else place.at(known)
         terms = self._judged(some, here)
         if everywhere:
             return terms
         columns = tuple(np.empty(shape, kind) for kind in self.dtypes)
-        for mask, part in ((known, terms), (~known, self._projected(_taken(scene, ~known)))):
+        for mask, part in ((known, terms), (~known, self._projected(taken(scene, ~known)))):
             _put(columns, mask, part)
         return columns
 
@@ -156,9 +156,9 @@ class LawfulTerms:
             return first
         columns = tuple(np.array(np.broadcast_to(each, shape)) for each in first)
         if (short := ~met & fits).any():
-            _put(columns, short, self._bettered(_taken(scene, short), columns, short, place))
+            _put(columns, short, self._bettered(taken(scene, short), columns, short, place))
         if not fits.all():
-            _put(columns, ~fits, self._projected(_taken(scene, ~fits)))
+            _put(columns, ~fits, self._projected(taken(scene, ~fits)))
         return columns
 
     def _bettered(self, scene: Any, columns: Terms, mask: Any, place: Place) -> Terms:
@@ -168,7 +168,7 @@ class LawfulTerms:
         best = self._better(scene, first, kappa)
         short = best[5] + best[6] > self.rtol
         if self.named is None and short.any():
-            some, there = _taken(scene, short), here.at(short)
+            some, there = taken(scene, short), here.at(short)
             factors = kappa[0][short], kappa[1][short]
             finer = self._better(some, self._slip(some, there, _table()), factors)
             before = tuple(column[short] for column in best)
@@ -289,11 +289,6 @@ def _table() -> FittedModel:
     table = shipped().models[OUTSIDE]
     assert isinstance(table, FittedModel)
     return table
-
-
-def _taken(scene: tuple[Any, ...], mask: Any) -> tuple[Any, ...]:
-    """Return some of the scenes."""
-    return tuple(v if type(v) is float else np.broadcast_to(v, mask.shape)[mask] for v in scene)
 
 
 def _put(columns: Terms, mask: Any, values: Terms) -> None:

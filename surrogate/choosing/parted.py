@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.basics.elementwise import quotient, ratio
+from surrogate.basics.elementwise import quotient, ratio, taken
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.auto_law import amplification_of_models
 from surrogate.choosing.by_name import AUTO
@@ -78,7 +78,7 @@ class Parted:
             return function(rubbing, self.scene)
         found: list[Any] = []
         for mask, model in ((self.known, rubbing), (~self.known, self.model)):
-            parts = function(model, tuple(_taken(value, mask) for value in self.scene))
+            parts = function(model, taken(self.scene, mask))
             found = found or [np.empty(mask.shape) for _ in parts]
             for column, part in zip(found, parts, strict=True):
                 column[mask] = part
@@ -122,7 +122,3 @@ def best_law(model: FittedModel, scene: tuple[Any, ...]) -> Any:
         with np.errstate(all="ignore"):
             known = kappa.place(quotient(gamma, mu, radius), alpha, xi, ratio(wear, mu)).known
     return np.broadcast_to(known, np.broadcast_shapes(*map(np.shape, scene)))
-
-
-def _taken(value: Any, mask: Any) -> Any:
-    return value if type(value) is float else np.broadcast_to(value, mask.shape)[mask]

@@ -17,11 +17,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.basics.elementwise import dense, log, where
+from surrogate.basics.elementwise import dense, log, taken, where
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
-__all__ = ["LEAST_SHARE", "Amplification", "Place", "load_of"]
+__all__ = ["LEAST_SHARE", "Amplification", "Place", "edge_of", "load_of"]
 
 Array = NDArray[np.float64]
 
@@ -52,9 +52,7 @@ class Place(NamedTuple):
 
     def at(self, mask: NDArray[np.bool_]) -> Place:
         """Return some of the places."""
-        return Place(
-            *(v if np.ndim(v) == 0 else np.broadcast_to(v, mask.shape)[mask] for v in self)
-        )
+        return Place(*taken(self, mask))
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,14 +199,16 @@ class Amplification:
 
     def error_at(self, place: Place) -> Any:
         """Return the bound of the error of ln kappa at places that are known."""
-        return self._in_cell(self.errors, place) * _between(place.share, LEAST_SHARE, 1.0)
+        return self._in_cell(self.errors, place.x, place.y) * _between(
+            place.share, LEAST_SHARE, 1.0
+        )
 
     def most_at(self, place: Place) -> Any:
         """Return a bound of |ln kappa| at places that are known."""
-        return self._in_cell(self.growth, place) * (place.xi + 0.1 * place.w)
+        return self._in_cell(self.growth, place.x, place.y) * (place.xi + 0.1 * place.w)
 
-    def _in_cell(self, table: Array, place: Place) -> Any:
-        value = table[self._cell(place.x, place.y)]
+    def _in_cell(self, table: Array, x: Any, y: Any) -> Any:
+        value = table[self._cell(x, y)]
         return float(value) if np.ndim(value) == 0 else value
 
     def _inside(self, x: Any, y: Any) -> Any:
@@ -270,10 +270,9 @@ class Amplification:
         size, direction = load_of(xi, wear, self.largest)
         reach = self.reach_at(x, y, direction)
         free = self._inside(*place) & (size <= reach)
-        most = self.largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0)
-        worst = self.largest[1] * _between(2.0 * direction, 0.0, 1.0)
+        most = edge_of(direction, self.largest)
         known = size <= reach
-        xi, wear = where(known, xi, reach * most), where(known, wear, reach * worst)
+        xi, wear = where(known, xi, reach * most[0]), where(known, wear, reach * most[1])
         return (x, y, xi, _log1p(wear)), free
 
     def reach_at(self, x: Any, y: Any, direction: Any) -> Any:
@@ -310,8 +309,7 @@ class Amplification:
         return rows, np.searchsorted(self.edges[1][1:-1], y, side="right")
 
     def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
-        value = table[self._cell(*self._place(g, alpha))]
-        return float(value) if np.ndim(value) == 0 else value
+        return self._in_cell(table, *self._place(g, alpha))
 
 
 def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
@@ -345,6 +343,20 @@ def _across(table: Any, j: Any, k: Any, t: Any, u: Any, *i: Any) -> Any:
     else:
         a, b, c, d = table[j][k], table[j][k + 1], table[j + 1][k], table[j + 1][k + 1]
     return (1.0 - t) * ((1.0 - u) * a + u * b) + t * ((1.0 - u) * c + u * d)
+
+
+def edge_of(direction: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
+    """Return the load of size 1 in a direction.
+
+    Examples
+    --------
+    >>> edge_of(0.25, (0.5, 10.0))
+    (0.5, 5.0)
+    """
+    return (
+        largest[0] * _between(2.0 - 2.0 * direction, 0.0, 1.0),
+        largest[1] * _between(2.0 * direction, 0.0, 1.0),
+    )
 
 
 def _between(value: Any, low: float, high: float) -> Any:
