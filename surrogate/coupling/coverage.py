@@ -75,7 +75,7 @@ def _place(kappa: Amplification, g: Range, alpha: Range) -> tuple[Range, Range]:
 
 def _is_covered(kappa: Amplification, box: Box) -> bool:
     xi, wear = _loads(box)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
     if size == 0.0:
         return True
     g, alpha = g_range(box), box["stiffening_exponent"]
@@ -93,7 +93,7 @@ def _least_reach(kappa: Amplification, g: Range, alpha: Range, box: Box) -> floa
     xi, wear = _loads(box)
     # more of wear and less of friction is nearer to the direction of wear
     direction = tuple(
-        load_of(*load, kappa.largest)[1] for load in ((xi[1], wear[0]), (xi[0], wear[1]))
+        load_of(*load, kappa.load_unit)[1] for load in ((xi[1], wear[0]), (xi[0], wear[1]))
     )
     places = (*_place(kappa, g, alpha), direction)
     nodes = [_with_nodes(axis, ends) for axis, ends in zip(kappa.axes, places, strict=True)]
@@ -123,8 +123,8 @@ def _halves(kappa: Amplification, box: Box) -> list[dict[str, Range]]:
     """Return the two halves of a box across what varies most."""
     shares = {name: 1.0 - low / high if high else 0.0 for name, (low, high) in box.items()}
     xi, wear = _loads(box)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
-    for name, (_, high), most in zip(_LOADS, (xi, wear), kappa.largest, strict=True):
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
+    for name, (_, high), most in zip(_LOADS, (xi, wear), kappa.load_unit, strict=True):
         shares[name] *= high / most / size  # what matters of the smaller load
     name = max(box, key=shares.__getitem__)
     low, high = box[name]
@@ -156,7 +156,7 @@ def bounds_over(kappa: Amplification, g: Range, alpha: Range, box: Box) -> tuple
         cells.append(slice(int(first), int(last) + 1))
     xi, wear = _loads(box)
     load, here = xi[1] + 0.1 * math.log1p(wear[1]), tuple(cells)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
     share = size / (_least_reach(kappa, g, alpha, box) or 1.0)
     error = float(kappa.errors[here].max()) * min(max(share, LEAST_SHARE), 1.0)
     return error, float(kappa.growth[here].max()) * load

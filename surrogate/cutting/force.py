@@ -107,6 +107,10 @@ class CuttingForce(LateRecord):
     doubts: tuple[str, ...] = ()
 
 
+_by_name = CuttingForce.without("relative_error", "fit_error", "law_error")
+_of_projected = CuttingForce.without("relative_error", "law_error")
+
+
 def cutting_force(
     scene: Scene,
     model: str | ForceModel = AUTO,
@@ -289,18 +293,10 @@ def force_of(
     if fitted and not stays and not (holds is True or np.all(holds)):
         require_inside(chosen, values)
         require_known_load(chosen, values)
-    force = CuttingForce.later(
+    name, law = chosen.name, chosen.law
+    force = _by_name(
         lambda: _errors(chosen, scene),
-        total=total,
-        cleavage=cleavage,
-        friction=friction,
-        wear=wear,
-        model=chosen.name,
-        in_domain=holds,
-        chosen=chosen.name,
-        law=chosen.law,
-        laws=chosen.law,
-        doubts=(),
+        *(total, cleavage, friction, wear, name, holds, name, law, law, ()),
     )
     return _blanked(force, scene, fitted and stays and not extrapolate)
 
@@ -377,19 +373,10 @@ def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingFo
     total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
     automatic.finish(extrapolate)
     names = automatic.names(number)
-    return CuttingForce.later(
+    return _of_projected(
         lambda: _errors(automatic.known.fitted.models[OUTSIDE], scene, bound),
-        total=total,
-        cleavage=cleavage,
-        friction=friction,
-        wear=wear,
-        model=one_name(names),
-        in_domain=holds,
-        chosen=names,
-        law=PROJECTED,
-        laws=PROJECTED,
-        fit_error=bound,
-        doubts=(),
+        *(total, cleavage, friction, wear, one_name(names), holds, names),
+        *(PROJECTED, PROJECTED, bound, ()),
     )
 
 
