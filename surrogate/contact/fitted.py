@@ -17,6 +17,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -143,7 +144,7 @@ class FittedModel(ForceModel):
 
     def under(self, law: str) -> Self:
         """Return the model under another law of dissipation."""
-        return self if law == self.law else replace(self, law=law)  # type: ignore[type-var]
+        return self if law == self.law else _under(self, law)
 
     @property
     def rubbing(self) -> tuple[str, str]:  # type: ignore[override]
@@ -341,6 +342,11 @@ class FittedModel(ForceModel):
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         return self.limits.holds(quotient(gamma, mu, radius), alpha)
+
+
+@lru_cache(16)
+def _under(model: Any, law: str) -> Any:
+    return replace(model, law=law)
 
 
 def _all(condition: Any) -> bool:

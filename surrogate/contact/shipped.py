@@ -32,6 +32,7 @@ __all__ = [
     "fitted_from",
     "folder_in_use",
     "in_use",
+    "location",
     "read",
     "read_fitted",
     "shipped",
@@ -266,14 +267,19 @@ def shipped() -> Fitted:
     InputError
         If there are none, or their file is damaged.
     """
-    named = _in_use or os.environ.get(VARIABLE)
-    return read(_file_at(named)) if named else _in(models_folder())
+    named, folder = location()
+    return read(_file_at(named)) if named else _in(folder)
 
 
 def folder_in_use() -> str:
     """Return the folder of the file that `shipped` reads."""
-    named = _in_use or os.environ.get(VARIABLE)
-    return os.path.dirname(_file_at(named)) if named else models_folder()
+    named, folder = location()
+    return os.path.dirname(_file_at(named)) if named else folder
+
+
+def location() -> tuple[str | None, str]:
+    """Return the path that was named for the models, None if none was, and the shipped folder."""
+    return _in_use or os.environ.get(VARIABLE), models_folder()
 
 
 _in_use: str | None = None

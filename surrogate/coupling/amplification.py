@@ -111,7 +111,7 @@ class Amplification:
     def factor_and_known(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any]:
         """Return ln kappa, and whether it is known there or without any load."""
         variables, free = self._at(g, alpha, xi, wear)
-        unloaded = np.equal(xi, 0.0) & np.equal(wear, 0.0)
+        unloaded = (xi == 0.0) & (wear == 0.0)
         return self.polynomial(*variables), free | unloaded
 
     def slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any, Any]:
@@ -284,9 +284,10 @@ class Amplification:
         x, y = self._clamped(x, y)
         size, direction = load_of(xi, wear, self.load_unit)
         reach = self.reach_at(x, y, direction)
-        most = edge_of(direction, self.load_unit)
         known = size <= reach
-        xi, wear = where(known, xi, reach * most[0]), where(known, wear, reach * most[1])
+        if known is not True:
+            most = edge_of(direction, self.load_unit)
+            xi, wear = where(known, xi, reach * most[0]), where(known, wear, reach * most[1])
         return (x, y, xi, _log1p(wear)), inside & known
 
     def reach_at(self, x: Any, y: Any, direction: Any) -> Any:

@@ -20,7 +20,7 @@ from surrogate.contact.coordinates import touch_range
 from surrogate.contact.domain import g_range
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
 
-__all__ = ["bounds_over", "uncovered"]
+__all__ = ["bounds_over", "is_beyond", "uncovered"]
 
 Range: TypeAlias = "tuple[float, float]"
 Box: TypeAlias = "Mapping[str, Range]"
@@ -58,6 +58,28 @@ def uncovered(kappa: Amplification, box: Box) -> tuple[dict[str, float], float] 
             return worst, share
         boxes += _halves(kappa, part)
     return worst, share
+
+
+def is_beyond(kappa: Amplification, box: Box) -> bool:
+    """Return whether solutions reach to no scene of a box, as far as its ends tell.
+
+    Examples
+    --------
+    >>> from surrogate.coupling.shipped import amplification
+    >>> ends = (685.0, 1.6, 1e-3, 0.1, 7750.0, 2.0)
+    >>> names = "shear_modulus toughness wire_radius friction_coefficient wear_strength".split()
+    >>> names.append("stiffening_exponent")
+    >>> is_beyond(amplification(), {name: (end, end) for name, end in zip(names, ends)})
+    True
+    """
+    loads, g, alpha = _loads(box), g_range(box), box["stiffening_exponent"]
+    least = max(part[0] / unit for part, unit in zip(loads, kappa.load_unit, strict=True))
+    if least > float(kappa.reach.max()):
+        return True
+    return any(
+        ends[1] < axis[0] - _ROUNDING or ends[0] > axis[-1] + _ROUNDING
+        for axis, ends in zip(kappa.axes[:2], _place(kappa, g, alpha), strict=True)
+    )
 
 
 def _loads(box: Box) -> tuple[Range, Range]:
