@@ -10,7 +10,7 @@ effective numbers there.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,13 +20,6 @@ from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto import AutomaticTerms, named, terms_of_one
 from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
 from surrogate.choosing.choice import rounded_up
-from surrogate.choosing.common_choice import (
-    CommonTerms,
-    box_of,
-    common_model,
-    common_slip,
-    is_beyond,
-)
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
@@ -34,6 +27,9 @@ from surrogate.contact.shipped import Fitted, location, shipped
 from surrogate.coupling.amplification import Amplification, Place
 from surrogate.coupling.shipped import amplification_if_any
 from surrogate.errors import AccuracyError
+
+if TYPE_CHECKING:
+    from surrogate.choosing.common_choice import CommonTerms
 
 __all__ = ["LawfulTerms", "amplification_of_models", "common_terms"]
 
@@ -89,13 +85,17 @@ def common_terms(values: tuple[FloatOrArray, ...], rtol: float | None) -> Common
     >>> str(terms.model)
     'table'
     """
-    box = box_of(values) if rtol is None else None
+    if rtol is not None:
+        return None
+    from surrogate.choosing import common_choice as common  # which one scene need not load
+
+    box = common.box_of(values)
     if box is None:
         return None
     kappa, _, of_law = _at(*location())
-    if kappa is None or is_beyond(kappa, box):
-        return common_model(of_law[PROJECTED], box, DEFAULT_RTOL)
-    return common_slip(kappa, of_law[SLIP], box, DEFAULT_RTOL, _FIT_PART)
+    if kappa is None or common.is_beyond(kappa, box):
+        return common.common_model(of_law[PROJECTED], box, DEFAULT_RTOL)
+    return common.common_slip(kappa, of_law[SLIP], box, DEFAULT_RTOL, _FIT_PART)
 
 
 class LawfulTerms:

@@ -29,9 +29,9 @@ from surrogate.choosing.laws import (
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.other_law import law_for, warn_of_other_law
 from surrogate.errors import InputError
-from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = ["CuttingForce", "cutting_force", "force_of", "warn_if_other_law"]
