@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Polynomial", "horner"]
+__all__ = ["Polynomial", "horner", "of_one_number"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,6 +149,20 @@ def horner(powers: Sequence[float], x: NDArray[np.float64], out: Any) -> Any:
         out *= x
         out += coefficient
     return out
+
+
+def of_one_number(powers: Sequence[float]) -> Callable[[float], float]:
+    """Return a polynomial of one number by its coefficients, written out for speed.
+
+    Examples
+    --------
+    >>> of_one_number((1.0, 2.0, 0.5))(2.0)
+    7.0
+    """
+    text = repr(float(powers[-1]))
+    for coefficient in powers[-2::-1]:
+        text = f"({text}*x + {float(coefficient)!r})"
+    return eval(f"lambda x: {text}")  # type: ignore[no-any-return]
 
 
 def _nested(powers: Sequence[Sequence[int]], coefficients: Sequence[float]) -> Any:
