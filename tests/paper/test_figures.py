@@ -29,7 +29,7 @@ from surrogate.errors import InputError
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FITTED = ("1c", "map", "misfit")
-FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "specimens", *FITTED)
+FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "eq13-coupled", "specimens", *FITTED)
 PARTS = (
     *(
         "experiment",
@@ -40,6 +40,7 @@ PARTS = (
         "exponents",
         "local exponents",
         "eq13",
+        "eq13 coupled",
     ),
     *("evidence", "blocks", "sizes"),
 )
