@@ -24,7 +24,7 @@ from surrogate.basics.figures import (
     save_figure,
 )
 from surrogate.choosing.by_name import FITTED_NAMES
-from surrogate.choosing.catalogue import BULK, COSTS_SCHEMA, ONE
+from surrogate.choosing.costs import BULK, COSTS_SCHEMA, ONE
 from surrogate.contact.closed_forms import FORCE_MODELS
 
 FIGURE = "tradeoff"

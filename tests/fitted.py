@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import surrogate.choosing.catalogue
+import surrogate.choosing.costs
 import surrogate.contact.shipped
 from fe_training.fitting import process as fit_gp
 from fe_training.fitting.fit import fit, write_fitted
@@ -65,6 +65,6 @@ def coupled(made_up_kappa, installed):
 @pytest.fixture
 def installed(fitted_file, monkeypatch):
     """The fitted models as this installation's own, which never measured what they cost."""
-    monkeypatch.setattr(surrogate.choosing.catalogue, "models_folder", lambda: fitted_file.parent)
+    monkeypatch.setattr(surrogate.choosing.costs, "models_folder", lambda: fitted_file.parent)
     monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted_file.parent)
     return surrogate.contact.shipped.shipped()

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-import surrogate.choosing.catalogue
+import surrogate.choosing.costs
 from surrogate import InputError, models
 from surrogate.choosing.by_name import FITTED_NAMES, force_model
 from surrogate.choosing.candidates import available
-from surrogate.choosing.catalogue import COSTS_FILE, COSTS_SCHEMA, by_cost, read_costs
+from surrogate.choosing.costs import COSTS_FILE, COSTS_SCHEMA, by_cost, read_costs
 from surrogate.contact.closed_forms import FORCE_MODELS
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @pytest.fixture
 def costs_file(tmp_path, monkeypatch):
-    monkeypatch.setattr(surrogate.choosing.catalogue, "models_folder", lambda: tmp_path)
+    monkeypatch.setattr(surrogate.choosing.costs, "models_folder", lambda: tmp_path)
     return tmp_path / COSTS_FILE
 
 
@@ -47,7 +47,7 @@ def test_models_without_a_cost_are_last(costs_file):
     known = [force_model(name) for name in ("eq9", "eq13", "low-toughness")]
     assert [model.name for model in by_cost(known)] == ["eq9", "eq13", "low-toughness"]
     costs_file.write_text(written(**{"low-toughness": 1.0, "eq13": 2.0}))
-    surrogate.choosing.catalogue._read.cache_clear()
+    surrogate.choosing.costs._read.cache_clear()
     assert [model.name for model in by_cost(known)] == ["low-toughness", "eq13", "eq9"]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.files import models_folder
-from surrogate.choosing.catalogue import by_cost
+from surrogate.choosing.costs import by_cost
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS

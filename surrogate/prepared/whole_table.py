@@ -12,7 +12,7 @@ from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.errors import InputError
 from surrogate.prepared.deciding import data_of
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, RUBBING, WITHOUT_SHEAR, Plan
+from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
 from surrogate.prepared.proof import force_error
 from surrogate.scene import NAMES
 
@@ -40,8 +40,7 @@ def whole_table(language: str, law: str = AUTO) -> str:
     >>> whole_table("python").count("def arc(g, alpha)")
     1
     """
-    any_law = isinstance(law, str) and law == AUTO
-    law = PROJECTED if any_law else law
+    law = PROJECTED if isinstance(law, str) and law == AUTO else law
     if isinstance(law, str) and law == COUPLED:
         raise InputError(
             "the whole table must be of the law 'projected' or 'slip', as 'coupled' is known for "
@@ -50,9 +49,7 @@ def whole_table(language: str, law: str = AUTO) -> str:
     table: Any = of_law(force_model(OUTSIDE), law)
     form: Any = FORCE_MODELS[FREE]
     plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law)
-    error = _error(law)
-    told = (math.nan, RUBBING) if any_law else (error, WITHOUT_SHEAR)
-    return ForceFunction(plan, told[0], data_of(table), error, told[1]).source(language)
+    return ForceFunction(plan, math.nan, data_of(table), _error(law)).source(language)
 
 
 def _error(law: str) -> float:
