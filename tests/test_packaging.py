@@ -74,6 +74,8 @@ def test_wheel(checkout, tmp_path):
     assert {f"surrogate/explorer/page/{part.name}" for part in page.iterdir()} <= names
     assert not [name for name in names if name.startswith(("tests", "models", "scripts"))]
     assert not [name for name in names if name.endswith(".h5")]
+    shipped = {file.name for file in (checkout / "models").iterdir() if ".h5" not in file.name}
+    assert {f"surrogate/models/{name}" for name in shipped} <= names
     assert wheel.stat().st_size < 1_000_000
     module, file = probe(f"sys.path.insert(0, {str(site)!r})", tmp_path)
     assert module.is_relative_to(site)

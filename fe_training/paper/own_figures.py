@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fe_training.figure_style import DISTANCE, STYLES, TOUGHNESS, Columns
 from fe_training.mechanics.analytic import far_field_wedge
 from fe_training.paper.curve import Curve, stacked
-from fe_training.paper.power_laws import eq13_error
+from fe_training.paper.power_laws import COUPLED_FRICTION, eq13_beside_coupled, eq13_error
 from fe_training.paper.specimen import Result, group
 from surrogate import contact_functions
 from surrogate.basics.figures import GREY, MEDIUM, SMALL, label_axes, legend_over, panels
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["contact_figure", "eq13_figure", "specimen_figure"]
+__all__ = ["contact_figure", "eq13_coupled_figure", "eq13_figure", "specimen_figure"]
 
 Floats = NDArray[np.float64]
 
@@ -31,6 +31,7 @@ _RATIO = (0.01, 100.0)
 
 #: Errors between the colours [%].
 _LEVELS = (-10, -5, 0, 5, 10, 20, 30, 50, 75, 100)
+_UNKNOWN = "#d9d9d9"
 _OTHER = "#aaaaaa"
 _OTHER_STYLE: dict[str, Any] = {"color": _OTHER, "lw": 0.4, "zorder": 1}
 
@@ -145,12 +146,60 @@ def eq13_figure(curves: Sequence[Curve], figure: Figure) -> Columns:
     return {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
 
 
+def eq13_coupled_figure(alphas: Sequence[float], figure: Figure) -> Columns:
+    """Draw the error of Eq. (13) beside the law "coupled" over g and tau_w/(mu xi).
+
+    Parameters
+    ----------
+    alphas : sequence of float
+        One row of panels for each; the columns are friction coefficients.
+    figure : matplotlib.figure.Figure
+        Where to draw.
+
+    Returns
+    -------
+    dict
+        Columns: alpha, xi, tau_w/(mu xi), g, the error and the bound of the coupled force's own
+        [-]; nan where no coupled solution is near.
+
+    References
+    ----------
+    arXiv:2412.02021, Eq. (13).
+    """
+    axes = panels(figure, len(COUPLED_FRICTION), len(alphas))
+    g, ratio = np.geomspace(2.5e-3, 100.0, 121), np.geomspace(*_RATIO, 81)
+    parts: list[Columns] = []
+    for line, alpha in zip(axes, alphas, strict=True):
+        for ax, xi in zip(line, COUPLED_FRICTION, strict=True):
+            error, own = eq13_beside_coupled(g, alpha, xi, ratio[:, None])
+            filled = _error_map(ax, g, ratio, 100.0 * error)
+            ax.set_facecolor(_UNKNOWN)
+            ax.set_title(rf"$\alpha$ = {alpha:g}, $\xi$ = {xi:g}", fontsize=MEDIUM)
+            label_axes(ax, TOUGHNESS, r"$\tau_w/(\mu\xi)$ [-]")
+            ax.label_outer()
+            at, wear = np.meshgrid(g, ratio)
+            parts.append(
+                {
+                    ("alpha", ""): np.full(at.size, alpha),
+                    ("xi", ""): np.full(at.size, xi),
+                    ("tau_w_over_mu_xi", ""): wear.ravel(),
+                    ("g", ""): at.ravel(),
+                    ("error_of_Eq_13", ""): error.ravel(),
+                    ("bound_of_the_coupled_force", ""): own.ravel(),
+                }
+            )
+    bar = figure.colorbar(filled, ax=axes, shrink=0.6, ticks=_LEVELS)
+    bar.set_label("error of Eq. (13) in $F_{ss}$ [%], dashed: 0", fontsize=MEDIUM)
+    bar.ax.tick_params(labelsize=SMALL)
+    return {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
+
+
 def _error_map(ax: Axes, g: Floats, ratio: Floats, error: Floats) -> Any:
     from matplotlib import colormaps
 
     colours = colormaps["RdBu_r"](0.5 + np.array(_DEPTHS))
     filled = ax.contourf(g, ratio, error, _LEVELS, colors=colours, extend="both")
-    if error.min() < 0.0 < error.max():
+    if np.nanmin(error) < 0.0 < np.nanmax(error):
         ax.contour(g, ratio, error, [0.0], colors="k", linewidths=0.8, linestyles="--")
     ax.set(xscale="log", yscale="log")
     return filled

@@ -13,12 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fe_training.paper.curve import Curve
+from surrogate import Scene
+from surrogate.choosing.laws import of_law
+from surrogate.cutting.force import force_of
 from surrogate.equations import TABLE_1
 from surrogate.errors import InputError
 
 __all__ = [
+    "COUPLED_FRICTION",
     "RANGES",
     "PowerFit",
+    "eq13_beside_coupled",
     "eq13_error",
     "fit_power",
     "fits",
@@ -28,6 +33,9 @@ __all__ = [
 ]
 
 Floats = NDArray[np.float64]
+
+#: Friction coefficients at which Eq. (13) is held against the law "coupled".
+COUPLED_FRICTION = (0.005, 0.02, 0.1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +171,43 @@ def eq13_error(
     xi, ratio = np.asarray(xi, dtype=float), np.asarray(wear_to_friction, dtype=float)
     paper = (1.0 + xi) * g + 4.0 * xi * (1.0 + ratio)
     return np.asarray(paper / (g + 2.0 * xi * (ratio * A + B)) - 1.0)
+
+
+def eq13_beside_coupled(
+    g: ArrayLike, alpha: float, xi: float, wear_to_friction: Any
+) -> tuple[Floats, Floats]:
+    """Return the error of Eq. (13) beside the law "coupled", and the bound of the latter's own.
+
+    Parameters
+    ----------
+    g : array_like
+        Gamma_o/(mu R_w) [-].
+    alpha : float
+        Stiffening exponent [-].
+    xi : float
+        Friction coefficient [-].
+    wear_to_friction : float or array_like
+        tau_w/(mu xi) [-].
+
+    Returns
+    -------
+    error, own : ndarray
+        Both relative [-]; nan where no coupled solution is near.
+
+    References
+    ----------
+    arXiv:2412.02021, Eq. (13).
+
+    Examples
+    --------
+    >>> error, own = eq13_beside_coupled([0.1, 1e3], 5.0, 0.01, 1.0)
+    >>> bool(own[0] < error[0] < 0.3), bool(np.isnan(error[1]))
+    (True, True)
+    """
+    scene = Scene(1.0, g, 1.0, xi, xi * np.asarray(wear_to_friction, dtype=float), alpha)
+    coupled = force_of(scene, of_law("table", "coupled"), outside="nan")
+    paper = np.asarray(force_of(scene, "eq13").total)
+    return paper / np.asarray(coupled.total) - 1.0, np.asarray(coupled.relative_error)
 
 
 def reached_from(size: ArrayLike, value: ArrayLike, limit: float, tolerance: float) -> float:

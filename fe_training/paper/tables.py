@@ -12,7 +12,13 @@ from fe_training.campaign.dataset import Campaign
 from fe_training.markdown import markdown_table, plain
 from fe_training.mechanics.analytic import far_field_wedge
 from fe_training.paper.curve import Curve
-from fe_training.paper.power_laws import eq13_error, fits, local_exponent
+from fe_training.paper.power_laws import (
+    COUPLED_FRICTION,
+    eq13_beside_coupled,
+    eq13_error,
+    fits,
+    local_exponent,
+)
 from surrogate.equations import far_field_energy_release_rate
 
 __all__ = [
@@ -20,6 +26,7 @@ __all__ = [
     "WEAR_TO_FRICTION",
     "contact_table",
     "distance_table",
+    "eq13_coupled_table",
     "eq13_table",
     "exponent_table",
     "local_table",
@@ -203,12 +210,32 @@ def eq13_table(curves: Sequence[Curve]) -> str:
     return markdown_table([r"$\alpha$", r"$\xi$", "lowest", "highest", "median of the size"], lines)
 
 
+def eq13_coupled_table(alphas: Sequence[float]) -> str:
+    """Return the range of Eq. (13)'s error beside the law "coupled", where that is known.
+
+    References
+    ----------
+    arXiv:2412.02021, Eq. (13).
+    """
+    g, lines = np.geomspace(2.5e-3, 100.0, 121), []
+    ratio = np.array(WEAR_TO_FRICTION)[:, np.newaxis]
+    for alpha in alphas:
+        for xi in COUPLED_FRICTION:
+            error, own = eq13_beside_coupled(g, alpha, xi, ratio)
+            known = np.isfinite(error)
+            ends = _ends(np.where(known, error, np.nan), g)
+            share = f"{100 * known.mean():.0f} %"
+            lines.append([f"{alpha:g}", f"{xi:g}", share, *ends, f"{100 * np.nanmax(own):.0f} %"])
+    head = [r"$\alpha$", r"$\xi$", "known", "lowest", "highest", "median of the size"]
+    return markdown_table([*head, "the coupled force within"], lines)
+
+
 def _ends(error: Any, g: Floats) -> Iterator[str]:
     error = np.atleast_2d(error)
-    for place in (error.argmin(), error.argmax()):
+    for place in (np.nanargmin(error), np.nanargmax(error)):
         row, column = np.unravel_index(place, error.shape)
         where = f"$g$ = {plain(float(g[column]))}"
         if len(error) > 1:
             where += rf", $\tau_w/(\mu\xi)$ = {WEAR_TO_FRICTION[row]:g}"
         yield f"{round(100 * error[row, column]):+d} % at {where}"
-    yield f"{100 * np.median(np.abs(error)):.0f} %"
+    yield f"{100 * np.nanmedian(np.abs(error)):.0f} %"

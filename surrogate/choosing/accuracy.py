@@ -22,7 +22,7 @@ from surrogate.errors import AccuracyError
 if TYPE_CHECKING:
     from surrogate.choosing.candidates import Candidates
 
-__all__ = ["contact_bounds", "contact_std", "one_model"]
+__all__ = ["contact_bounds", "contact_std", "one_model", "std_of_bound"]
 
 Array = NDArray[np.float64]
 
@@ -71,8 +71,6 @@ def contact_bounds(
 def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None:
     """Return the standard deviations of A and B: the model's own, or bound/sqrt(3) times A and B.
 
-    The latter is that of an error which may be anything up to its bound.
-
     Parameters
     ----------
     model : ForceModel
@@ -84,10 +82,6 @@ def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None
     -------
     tuple of float or ndarray, or None
         Of A and of B [-], nan outside the domain; None for closed forms.
-
-    References
-    ----------
-    JCGM 100:2008, Guide to the expression of uncertainty in measurement, section 4.3.7.
 
     Examples
     --------
@@ -101,10 +95,25 @@ def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None
         return model.contact_std(g, alpha)
     values = model.arc(g, alpha), model.normal_load(g, alpha)
     arc, load = (
-        np.where(np.isfinite(bound), value * bound / np.sqrt(3.0), np.nan)
+        np.where(np.isfinite(bound), std_of_bound(value * bound), np.nan)
         for value, bound in zip(values, bounds, strict=True)
     )
     return arc, load
+
+
+def std_of_bound(bound: Any) -> Any:
+    """Return the standard deviation of an error that may be anything up to its bound.
+
+    References
+    ----------
+    JCGM 100:2008, Guide to the expression of uncertainty in measurement, section 4.3.7.
+
+    Examples
+    --------
+    >>> print(std_of_bound(np.sqrt(3.0)))
+    1.0
+    """
+    return bound / np.sqrt(3.0)
 
 
 def one_model(name: object, rtol: object = None) -> ForceModel:

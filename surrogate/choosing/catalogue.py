@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from surrogate.basics.checks import shown
 from surrogate.basics.files import models_folder
 from surrogate.basics.records import Record
-from surrogate.choosing.by_name import FITTED_NAMES
+from surrogate.choosing.beside_law import errors_over_reach, reach_in_words
+from surrogate.choosing.by_name import FITTED_NAMES, force_model
 from surrogate.choosing.costs import BULK, ONE, read_costs
+from surrogate.choosing.laws import LAWS, PROJECTED
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.shipped import shipped, use
 from surrogate.errors import InputError
 
-__all__ = [
-    "ModelInfo",
-    "load_models",
-    "models",
-]
+__all__ = ["ModelInfo", "load_models", "models"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +41,12 @@ class ModelInfo(Record):
         Measured time of one number by itself [us]; None if not measured.
     error : float or None
         Measured bound of the relative error of A and B over the domain [-]; None if not measured.
+        Under a law that was asked for the largest bound of that of F_ss beside finite elements on
+        which the wire rubs, at the largest loads that these reach.
+    law : str
+        The law of dissipation.
+    median_error : float or None
+        The median of that bound over these loads [-]; None where no law was asked for.
 
     Examples
     --------
@@ -56,10 +61,19 @@ class ModelInfo(Record):
     cost: float | None
     latency: float | None
     error: float | None
+    law: str = PROJECTED
+    median_error: float | None = None
 
 
-def models() -> tuple[ModelInfo, ...]:
+def models(law: str | None = None) -> tuple[ModelInfo, ...]:
     """Return all models with domain, cost and error: closed forms first, then the fitted ones.
+
+    Parameters
+    ----------
+    law : str, optional
+        "projected", "slip" or "coupled": only the models that have this law of dissipation, with
+        the error of their forces under it beside finite elements on which the wire rubs. Without
+        it the error is that of A and B beside finite elements without shear on the wire.
 
     Returns
     -------
@@ -70,11 +84,14 @@ def models() -> tuple[ModelInfo, ...]:
     Raises
     ------
     InputError
-        If a shipped file is damaged.
+        If a shipped file is damaged, or there is no such law.
 
     Notes
     -----
-    Costs are those of the machine that measured them, to be compared with each other.
+    Costs are those of the machine that measured them, to be compared with each other. The errors
+    under a law are made of the bounds by cell on the cards of the models and of kappa,
+    models/model-card.md and models/coupled-card.md, at the largest loads that coupled solutions
+    reach; `domain` says over which. At smaller loads they are smaller: a force tells its own.
 
     References
     ----------
@@ -84,7 +101,29 @@ def models() -> tuple[ModelInfo, ...]:
     --------
     >>> [model.name for model in models() if model.name.startswith("eq")]
     ['eq13', 'eq9']
+    >>> [model.name for model in models("coupled")]
+    ['power-law', 'table', 'gp']
     """
+    listed = _listed()
+    if law is None:
+        return listed
+    if not isinstance(law, str) or law not in LAWS:
+        raise InputError(f"law must be one of {', '.join(LAWS)}, but is {shown(law)}; choose one.")
+    return tuple(
+        _under(model, law) for model in listed if law == PROJECTED or model.name in FITTED_NAMES
+    )
+
+
+def _under(model: ModelInfo, law: str) -> ModelInfo:
+    """Return a model under a law, with the errors of its forces beside coupled solutions."""
+    errors = errors_over_reach(force_model(model.name), law) if model.available else None
+    worst, median = (None, None) if errors is None else errors
+    domain = model.domain if errors is None else reach_in_words()
+    return replace(model, law=law, error=worst, median_error=median, domain=domain)
+
+
+def _listed() -> tuple[ModelInfo, ...]:
+    """Return all models with the errors of A and B."""
     try:
         fitted = shipped()
     except InputError:

@@ -1,4 +1,4 @@
-"""What the models cost, as it was measured: the order in which they are tried."""
+"""What the models cost, as it was measured."""
 
 from __future__ import annotations
 

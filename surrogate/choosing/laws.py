@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surrogate.basics.checks import shown
+from surrogate.basics.checks import one_number, shown
 from surrogate.basics.elementwise import quotient, ratio, where
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
@@ -103,7 +103,9 @@ def law_of(model: Any) -> str:
     return PROJECTED if is_auto(model) else getattr(model, "law", PROJECTED)
 
 
-def of_law(model: Any, law: object, any_law: bool = False) -> Any:
+def of_law(
+    model: Any, law: object, any_law: bool = False, notch_radius: float | None = None
+) -> Any:
     """Return what `model` is to be under a law: itself for "projected", else a model's object.
 
     Under "slip" and "coupled" the name "auto" is the table, the quickest of the fitted models at
@@ -118,6 +120,8 @@ def of_law(model: Any, law: object, any_law: bool = False) -> Any:
         "projected", "slip", "coupled", or "auto" where `any_law`.
     any_law : bool, default False
         Whether the caller can choose the law point by point.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], of the law "slip" alone.
 
     Raises
     ------
@@ -136,6 +140,11 @@ def of_law(model: Any, law: object, any_law: bool = False) -> Any:
     known = (*LAWS, AUTO) if any_law else LAWS
     if not isinstance(law, str) or law not in known:
         raise InputError(f"law must be one of {', '.join(known)}, but is {shown(law)}; choose one.")
+    if notch_radius is not None and law != SLIP:
+        raise InputError(
+            "notch_radius must be given with law='slip', whose slip depends on the tip where it "
+            f"touches the wire, but the law is {law!r}; give law='slip', or leave it out."
+        )
     if law == PROJECTED or (law == AUTO and isinstance(model, AnyLaw)):
         return model
     if law == AUTO and is_auto(model):
@@ -155,7 +164,16 @@ def of_law(model: Any, law: object, any_law: bool = False) -> Any:
             f"law={law!r} must have A* and B*, but the file of {chosen.name!r} has none; make it "
             "anew with regen-surrogate, or take the models that wirecut ships."
         )
-    return coupled(chosen.under(SLIP)) if law == COUPLED else chosen.under(law)
+    if law == COUPLED:
+        return coupled(chosen.under(SLIP))
+    return chosen.under(law) if notch_radius is None else _notched(chosen.under(law), notch_radius)
+
+
+def _notched(slip: FittedModel, notch_radius: object) -> FittedModel:
+    """Return a model of the slip law with a tip of its own radius."""
+    from surrogate.coupling.notched import NOTCH_RADIUS, notched
+
+    return notched(slip, one_number(NOTCH_RADIUS, notch_radius))
 
 
 def coupled(slip: FittedModel) -> FittedModel:
@@ -174,7 +192,8 @@ def _coupling() -> tuple[Callable[..., Any], Callable[[], Any]]:
 
 
 def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
-    """Raise a `DomainError` where the coupled solutions do not reach to a scene's load."""
+    """Raise a `DomainError` where a scene's load or tip is one that no solution tells of."""
+    model.require_known(values)
     if model.law != COUPLED:
         return
     shape = np.broadcast_shapes(*map(np.shape, values))
@@ -230,6 +249,7 @@ def force_bound(
         own = _own_error(model, g, alpha, xi, relative)
         bounds = contact_bounds(model, g, alpha, known)
         assert bounds is not None  # of a fitted model
+        bounds = model.bounds_of(scene, bounds)
         off = where(friction == 0.0, 0.0, friction * (bounds[1] + own))
         off = off + where(wear == 0.0, 0.0, wear * (bounds[0] + own))
         smooth = (friction == 0.0) & (wear == 0.0)

@@ -85,7 +85,13 @@ class Parted:
         return tuple(found)
 
 
-def parted(model: Any, law: object, rtol: float | None, scene: tuple[Any, ...]) -> Parted:
+def parted(
+    model: Any,
+    law: object,
+    rtol: float | None,
+    scene: tuple[Any, ...],
+    notch_radius: float | None = None,
+) -> Parted:
     """Return the one model that is meant, under the law, or with "auto" the best of each scene.
 
     Parameters
@@ -98,6 +104,8 @@ def parted(model: Any, law: object, rtol: float | None, scene: tuple[Any, ...]) 
         As in `force_gradient`.
     scene : tuple
         The six quantities.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], of the law "slip" alone.
 
     Examples
     --------
@@ -105,7 +113,7 @@ def parted(model: Any, law: object, rtol: float | None, scene: tuple[Any, ...]) 
     >>> parted("table", "auto", None, scene).laws.tolist()
     ['projected', 'coupled']
     """
-    wanted = of_law(model, law, any_law=True)
+    wanted = of_law(model, law, True, notch_radius)
     if not isinstance(wanted, AnyLaw):
         return Parted(one_model(wanted, rtol), scene)
     one = one_model(wanted.named or AUTO, rtol)

@@ -127,6 +127,17 @@ def add_law_option(
     )
 
 
+def add_notch_option(command: argparse.ArgumentParser) -> None:
+    """Add the radius of the crack's tip."""
+    command.add_argument(
+        "--notch-radius",
+        type=quantity(LENGTH),
+        metavar="R_TIP",
+        help="radius of the crack's tip, with --law slip: where the tip touches the wire at alpha "
+        "up to 2.5, the force depends on it (default 0.0005 of the wire's radius)",
+    )
+
+
 def add_identified_law_option(command: argparse.ArgumentParser) -> None:
     """Add the law of an identification, which is one for all cuts of all gels."""
     command.add_argument(

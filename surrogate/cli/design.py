@@ -12,6 +12,8 @@ import numpy as np
 from surrogate.basics.digits import rounded
 from surrogate.basics.files import opened
 from surrogate.basics.records import number, table
+from surrogate.choosing.by_name import force_model
+from surrogate.choosing.laws import LAWS
 from surrogate.cli.common import (
     Record,
     add_friction_and_stiffening,
@@ -56,6 +58,12 @@ def add_design_options(command: argparse.ArgumentParser) -> None:
     add_friction_and_stiffening(command, friction=None, stiffening=None)
     add_model_option(command)
     command.set_defaults(rtol=None)
+    add(
+        "--law",
+        choices=LAWS,
+        help="law of friction and wear that toughness and wear strength are of; with coupled only "
+        "wires are considered that its solutions reach (default that of --result, else projected)",
+    )
     add("--cuts", type=whole_number, default=8, metavar="N", help="cuts in all (default 8)")
     add("--force-std", type=quantity(LINE_FORCE), metavar="STD", help="scatter of one cut in N/m")
     add("--relative-error", type=share, metavar="SHARE", help="or as a share of its force: 5%%")
@@ -90,6 +98,11 @@ def design_record(options: argparse.Namespace) -> Record:
         model = of_result if model == "auto" else model
     else:
         expected, relative = _guess(options), None
+    if options.law is not None and expected.law not in (None, options.law):
+        raise InputError(
+            f"{options.result}: was identified by the law {expected.law!r}, whose wear strength is "
+            f"not that of another; leave out --law {options.law}, or identify by that law."
+        )
     if options.force_std is not None or options.relative_error is not None:
         relative = options.relative_error
     elif relative is None:
@@ -106,9 +119,12 @@ def design_record(options: argparse.Namespace) -> Record:
         diameters=_sizes(options),
         thickness=options.thickness,
         goal=options.goal,
+        law=options.law,
     )
     return {
         **asdict(design),
+        "model": force_model(design.model).name,
+        "law": design.law,
         "wires": [asdict(wire) | {"widest_sample": wire.widest_sample} for wire in design.wires],
         "cuts": options.cuts,
         "force_std": options.force_std,
@@ -188,7 +204,7 @@ def _of_result(options: argparse.Namespace) -> tuple[Scene, float | None, str]:
             modes = [m for m in record.get("modes", [])[1:] if m["admitted"]]
             pairs += [(mode["toughness"], mode["wear_strength"]) for mode in modes]
             pairs += [(low[0], high[1]), (high[0], low[1])]
-            wires, model = record["wires"], str(record["model"])
+            wires, model = record["wires"], str(record["model"]).partition(", law ")[0]
             shares = [wire["residual"] / wire["force"] for wire in wires]
             pairs = [pair for pair in pairs if None not in pair and min(pair) > 0.0]
             law, assumed = record["law"], record["assumed"]
@@ -196,10 +212,10 @@ def _of_result(options: argparse.Namespace) -> tuple[Scene, float | None, str]:
             raise InputError(
                 f"{options.result}: is no result; write one by 'wirecut identify ... --json'."
             ) from None
-    if law != "projected":
+    if law not in LAWS:
         raise InputError(
-            f"{options.result}: was identified by the law {law!r}, under which no wires are "
-            "designed; identify with --law projected."
+            f"{options.result}: is of the law {law!r}, where {', '.join(LAWS)} are known; write it "
+            "again by 'wirecut identify ... --json'."
         )
     if "shear_modulus" in assumed:
         raise InputError(
@@ -214,6 +230,7 @@ def _of_result(options: argparse.Namespace) -> tuple[Scene, float | None, str]:
         toughness=np.array([gamma for gamma, _ in pairs]),
         wear_strength=np.array([tau for _, tau in pairs]),
         wire_radius=1.0,
+        law=law,
         **solid,
     )
     dof = len(shares) - 2
@@ -235,7 +252,7 @@ def _answer(design: WireDesign) -> str:
     return (
         f"Cut {wires} (diameters): they promise Gamma_o = {rounded(design.toughness, gamma)} +- "
         f"{number(gamma, 2)} J/m2 and tau_w = {rounded(1e-3 * design.wear_strength, tau)} +- "
-        f"{number(tau, 2)} kPa (standard errors), model {design.model}"
+        f"{number(tau, 2)} kPa (standard errors), model {force_model(design.model)}"
     )
 
 

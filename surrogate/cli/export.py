@@ -102,7 +102,9 @@ def _force(options: argparse.Namespace) -> tuple[str, Record]:
     force = prepare(fixed, tuple(ranges), ranges, options.model, options.rtol, options.law)
     return force.source(options.format), {
         "what": str(force),
+        "law": force.law,
         "relative_error": force.relative_error,
+        "fit_error": force.fit_error,
         "warnings": [],
     }
 

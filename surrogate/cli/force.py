@@ -16,13 +16,14 @@ from surrogate.basics.records import share as share_in_words
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.catalogue import models
 from surrogate.choosing.choice import rounded_up
-from surrogate.choosing.laws import PROJECTED
+from surrogate.choosing.laws import LAWS, PROJECTED
 from surrogate.cli.common import (
     Record,
     add_extrapolate_option,
     add_friction_and_stiffening,
     add_law_option,
     add_model_option,
+    add_notch_option,
     print_answer,
     print_record,
     quantity,
@@ -49,7 +50,10 @@ __all__ = [
 def force_record(
     scene: Scene, force: CuttingForce, thickness: float | None = None, any_law: bool = False
 ) -> Record:
-    """Return the force on each wire [N/m] and its parts, and on all of a sample's thickness [N]."""
+    """Return the force on each wire [N/m] and its parts, and on all of a sample's thickness [N].
+
+    With `any_law` the law is "auto", and that of each wire is told.
+    """
     size = math.nan if thickness is None else thickness
     wires = wire_rows(
         wire_radius=scene.wire_radius,
@@ -70,7 +74,6 @@ def force_record(
     return {
         "model": force.model,
         "law": AUTO if any_law else force.law,
-        "any_law": any_law,
         "thickness": thickness,
         "wires": wires,
         "notes": list(force.doubts),
@@ -89,7 +92,7 @@ def force_text(record: Record, diameters: bool = False) -> str:
             *([] if thickness is None else [number(wire["force"])]),
             *(number(wire[key]) for key in ("cleavage", "friction", "wear")),
             wire["model"],
-            *([wire["law"]] if record["any_law"] else []),
+            *([wire["law"]] if is_auto(record["law"]) else []),
             _percent(wire["fit_error"]),
             _percent(wire["law_error"]),
             "yes" if wire["in_domain"] else "no",
@@ -99,10 +102,12 @@ def force_text(record: Record, diameters: bool = False) -> str:
     name = record["model"]
     words = "that of each wire" if is_auto(name) else force_model(name).equation
     parts = ("F_ss/T [N/m]", *on_all, "cleavage", "friction", "wear")
-    which = ["law"] if record["any_law"] else []
+    which = ["law"] if is_auto(record["law"]) else []
     errors = ("fit error", "law error")
     header = (*_wire_header(diameters), *parts, "model", *which, *errors, "model holds")
     law = "" if record["law"] == PROJECTED else f", law {_LAW_WORDS[record['law']]}"
+    tip = record.get("notch_radius")
+    law = law if tip is None else f"{law}, tip of {number(1e3 * tip)} mm"
     text = f"Model {name}, {words}{law}\n" + table(header, rows)
     unknown = any(wire["fit_error"] != wire["fit_error"] for wire in record["wires"])
     if unknown and record["law"] in _UNKNOWN_ERROR:
@@ -131,7 +136,8 @@ _LAW_WORDS = {
 _UNKNOWN_ERROR = {
     "slip": """\
 Where the error is unknown the crack's tip touches the wire: the force under the law of slip then
-depends on how sharp the tip is. That of the finite elements has a radius of 0.0005 R_w.""",
+depends on how sharp the tip is, here a notch of 0.0005 R_w; with --notch-radius and alpha up to 2.5
+the error is known.""",
     "coupled": "Where the error is unknown no solution with friction and wear is near.",
 }
 
@@ -198,13 +204,15 @@ def regime_text(record: Record, diameters: bool = False) -> str:
     return "\n".join([table(header, rows), said, *_notes(record)])
 
 
-def models_record() -> Record:
-    """Return all models with domain, cost and error."""
-    return {"models": [asdict(model) for model in models()]}
+def models_record(law: str | None = None) -> Record:
+    """Return all models with domain, cost and error, or those of a law with their errors."""
+    return {"law": law, "models": [asdict(model) for model in models(law)]}
 
 
 def models_text(record: Record) -> str:
     """Return a table of `models_record`."""
+    if record["law"] is not None:
+        return _models_of_law(record)
     rows = [
         (
             model["name"],
@@ -218,8 +226,31 @@ def models_text(record: Record) -> str:
     return table(("model", "equation", "holds for", "error up to", "cost [ns]"), rows) + (
         "\nThe error is that of A and B over the domain, measured beside finite elements; the cost "
         "that of each\nof many points. Model auto takes the cheapest of those with an error that "
-        "is exact enough."
+        "is exact enough. With --law\nthe errors of forces beside solutions on which the wire rubs."
     )
+
+
+def _models_of_law(record: Record) -> str:
+    """Return a table of the models of a law."""
+    rows = [
+        (
+            model["name"],
+            _percent(model["median_error"]),
+            _percent(model["error"]),
+            UNKNOWN if model["cost"] is None else f"{model['cost']:.3g}",
+        )
+        for model in record["models"]
+    ]
+    known = [model["domain"] for model in record["models"] if model["error"] is not None]
+    text = table(("model", "error, median", "error up to", "cost [ns]"), rows)
+    said = (
+        f"Law {record['law']}: how far F_ss may be off beside finite elements on which the wire "
+        "rubs, at the largest friction and wear for which there are such"
+        + (f": {known[0]}" if known else "")
+        + ". At smaller loads it is less: wirecut force prints it for yours. From the bounds in "
+        "models/model-card.md and models/coupled-card.md."
+    )
+    return f"{text}\n{fill(said, 96)}"
 
 
 def _add_scene_options(command: argparse.ArgumentParser) -> None:
@@ -261,6 +292,7 @@ def add_force_options(command: argparse.ArgumentParser) -> None:
     _add_scene_options(command)
     add_model_option(command)
     add_law_option(command, any_law=True)
+    add_notch_option(command)
     add_extrapolate_option(command)
     command.add_argument(
         "--thickness",
@@ -270,6 +302,16 @@ def add_force_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--plot", metavar="PICTURE", help="draw the force and its parts over the radius"
+    )
+
+
+def add_models_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--law",
+        choices=LAWS,
+        help="the models that have this law of friction and wear, with the errors of their forces "
+        "beside finite elements on which the wire rubs; without it those of A and B beside "
+        "frictionless ones",
     )
 
 
@@ -284,6 +326,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
     )
     add_model_option(command)
     add_law_option(command, any_law=True)
+    add_notch_option(command)
     add_extrapolate_option(command)
 
 
@@ -308,8 +351,20 @@ def run_force(options: argparse.Namespace) -> int:
     if options.thickness == 0.0:
         raise InputError("the sample's thickness must be positive; give --thickness 20mm or so.")
     scene = _scene(options)
-    force = cutting_force(scene, options.model, options.rtol, options.extrapolate, law=options.law)
+    force = cutting_force(
+        scene,
+        options.model,
+        options.rtol,
+        options.extrapolate,
+        options.law,
+        notch_radius=options.notch_radius,
+    )
     wide = _in_diameters(options)
+    if options.plot and options.notch_radius is not None:
+        raise InputError(
+            "--plot must stand without --notch-radius, as the picture has radii down to that of "
+            "the tip; leave out one of them."
+        )
     if options.plot:
         from surrogate.cutting.figure import save_force
 
@@ -324,7 +379,7 @@ def run_force(options: argparse.Namespace) -> int:
             )
     any_law = options.law == AUTO and force.law_error is not None  # of closed forms it is none
     record = force_record(scene, force, options.thickness, any_law)
-    record |= {"picture": options.plot}
+    record |= {"picture": options.plot, "notch_radius": options.notch_radius}
     return print_answer(
         options, record, lambda record: _with_picture(force_text(record, wide), record)
     )
@@ -337,11 +392,11 @@ def _with_picture(text: str, record: Record) -> str:
 def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
     choice = options.model, options.rtol, options.extrapolate
-    regime = classify(scene, options.threshold, *choice, law=options.law)
+    regime = classify(scene, options.threshold, *choice, options.law, options.notch_radius)
     record = regime_record(scene, regime, options.model)
     wide = _in_diameters(options)
     return print_answer(options, record, lambda record: regime_text(record, wide))
 
 
 def run_models(options: argparse.Namespace) -> None:
-    print_record(options, models_record(), models_text)
+    print_record(options, models_record(options.law), models_text)

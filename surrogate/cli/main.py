@@ -26,6 +26,7 @@ from surrogate.cli.common import (
 from surrogate.cli.design import add_design_options, run_design
 from surrogate.cli.force import (
     add_force_options,
+    add_models_options,
     add_regime_options,
     run_force,
     run_models,
@@ -161,8 +162,10 @@ example:
     "explore": f"{_UNITS}\n\n{cli_explore.EXAMPLES}",
     "export": f"{_UNITS}\n\n{cli_export.EXAMPLES}",
     "models": """\
-example:
+examples:
   wirecut models --json
+  wirecut models --law coupled
+      how far forces may be off beside solutions on which the wire rubs
 """,
     "doctor": """\
 example:
@@ -259,7 +262,7 @@ def _parser() -> argparse.ArgumentParser:
         ("map", lambda command: cli_map.add_options(command), run_map),
         ("explore", cli_explore.add_explore_options, cli_explore.run_explore),
         ("export", cli_export.add_export_options, cli_export.run_export),
-        ("models", lambda command: None, run_models),
+        ("models", add_models_options, run_models),
         ("doctor", lambda command: None, run_doctor),
     ):
         command = commands.add_parser(name, help=_DESCRIPTIONS[name], prog=f"wirecut {name}")

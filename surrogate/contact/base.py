@@ -143,6 +143,10 @@ class ForceModel(ABC):
         friction, worn = self.terms(mu, gamma, radius, xi, wear, alpha)
         return friction, worn, self.in_domain(mu, gamma, radius, xi, wear, alpha)
 
+    def require_known(self, scene: tuple[Any, ...]) -> None:
+        """Raise a `DomainError` where a scene is in the domain and its contact is not known."""
+        return
+
     @abstractmethod
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return whether the model holds."""

@@ -13,26 +13,20 @@ from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import COUPLED, FittedModel
 from surrogate.coupling.amplification import Amplification
 
-__all__ = ["CoupledModel"]
+__all__ = ["CoupledModel", "OverSlip"]
 
 
 @dataclass(frozen=True, eq=False)
-class CoupledModel(FittedModel):
-    """A model whose friction and wear act on the body.
-
-    A* and B*, `arc` and `normal_load`, are those of the model itself: the first order.
+class OverSlip(FittedModel):
+    """A model that starts from the slip terms of another one, whose A*, B* and domain it has.
 
     Parameters
     ----------
     slip : FittedModel
         The model under the law "slip".
-    amplification : Amplification
-        kappa.
     """
 
     slip: FittedModel
-    amplification: Amplification
-    law: str = COUPLED
 
     @property
     def name(self) -> str:  # type: ignore[override]
@@ -42,7 +36,7 @@ class CoupledModel(FittedModel):
     @property
     def equation(self) -> str:  # type: ignore[override]
         """What it evaluates."""
-        return f"{self.slip.equation}, times kappa"
+        return self.slip.equation
 
     @property
     def limits(self) -> Domain:  # type: ignore[override]
@@ -64,13 +58,36 @@ class CoupledModel(FittedModel):
 
     def under(self, law: str) -> Any:
         """Return the model under another law of dissipation."""
-        return self if law == COUPLED else self.slip.under(law)
+        return self if law == self.law else self.slip.under(law)
 
     def inside(self, names: Sequence[str], log_g: Any, log_alpha: Any, g: Any) -> list[Any]:
         return self.slip.inside(names, log_g, log_alpha, g)
 
     def inside_slopes(self, name: str, log_g: Any, log_alpha: Any) -> tuple[Any, Any, Any]:
         return self.slip.inside_slopes(name, log_g, log_alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledModel(OverSlip):
+    """A model whose friction and wear act on the body.
+
+    A* and B*, `arc` and `normal_load`, are those of the model itself: the first order.
+
+    Parameters
+    ----------
+    slip : FittedModel
+        The model under the law "slip".
+    amplification : Amplification
+        kappa.
+    """
+
+    amplification: Amplification
+    law: str = COUPLED
+
+    @property
+    def equation(self) -> str:  # type: ignore[override]
+        """What it evaluates."""
+        return f"{self.slip.equation}, times kappa"
 
     def terms_at(
         self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any

@@ -75,7 +75,8 @@ class ContactFunctions(Record):
         under the contact: the arc along which it slips, and the load times the slip. To first order
         in tau_w and xi the energy balance has them in the place of A and B. Where the tip touches
         the wire they depend on the size of the tip, which is that of the finite elements' notch,
-        5e-4 R_w. None where the model has none, as the closed forms.
+        5e-4 R_w; forces under the law "slip" take another one as `notch_radius`. None where the
+        model has none, as the closed forms.
     slip_arc_std, slip_load_std : float, ndarray or None
         Standard deviations of the two [-], like the others.
 

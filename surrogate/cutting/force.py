@@ -72,7 +72,8 @@ class CuttingForce(LateRecord):
     fit_error : float, ndarray or None
         The part of the model: beside finite elements of the law of the point [-]. nan outside the
         domain, and under "slip" where the tip touches the wire at alpha up to 3: the slip there
-        depends on how sharp the tip is, which is a notch of 5e-4 R_w here.
+        depends on how sharp the tip is, a notch of 5e-4 R_w here. With `notch_radius` it is that
+        beside finite elements with a notch of this radius.
     law_error : float, ndarray or None
         The part of the law: of its own force beside finite elements on which the wire rubs [-]. 0
         under "coupled", whose error is that of a fit, and where nothing rubs; nan where no such
@@ -120,6 +121,7 @@ def cutting_force(
     extrapolate: bool = False,
     law: str = AUTO,
     outside: str = "raise",
+    notch_radius: float | None = None,
 ) -> CuttingForce:
     """Return the steady cutting force per unit thickness of a scene and its parts, Eq. (S2).
 
@@ -154,6 +156,12 @@ def cutting_force(
     outside : str, default "raise"
         What becomes of points outside the domain of a fitted model: "raise" for an error that names
         the first, "nan" for nan in their total, friction and wear, and False in `in_domain`.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], of the law "slip" alone: where the tip touches the wire at
+        alpha up to 2.5, the slip grows as it becomes sharper, and `fit_error` is known with it.
+        5e-5 to 0.03 of the wire's radius, and up to 0.3/g of it. Where the tip does not touch the
+        wire it does not matter. Without it the tip is that of the finite elements, 5e-4 of the
+        wire's radius.
 
     Returns
     -------
@@ -170,7 +178,8 @@ def cutting_force(
     DomainError
         If alpha is outside Table 1, 2 to 9, and the model is "eq9"; if g or alpha is outside the
         domain of a fitted model, or under the law "coupled" the load outside the coupled
-        solutions, and `extrapolate` is not set.
+        solutions, and `extrapolate` is not set; or if nobody knows the slip of a tip of this
+        `notch_radius` that touches the wire.
     AccuracyError
         If `rtol` is given, the model or the law is "auto" and none is as exact, or none is known
         to be; the message names the best one.
@@ -224,7 +233,8 @@ def cutting_force(
     1.7600 N/m, in domain: False
     """
     law = law_for(scene, law)
-    force = force_of(scene, of_law(model, law, any_law=True), rtol, extrapolate, outside)
+    wanted = of_law(model, law, True, notch_radius)
+    force = force_of(scene, wanted, rtol, extrapolate, outside)
     warn_of_scene(scene.values())
     warn_of_other_law(scene, law, force, _by_own_law)
     return force
@@ -292,9 +302,12 @@ def force_of(
     total, cleavage, friction, wear, holds = apply(
         parts, values, (float, float, float, float, bool), AT_ONCE if fitted else WHOLE
     )
-    if fitted and not stays and not (holds is True or np.all(holds)):
-        require_inside(chosen, values)
-        require_known_load(chosen, values)
+    if fitted and not (holds is True or np.all(holds)):
+        if not stays:
+            require_inside(chosen, values)
+            require_known_load(chosen, values)
+        elif extrapolate:
+            chosen.require_known(values)
     name, law = chosen.name, chosen.law
     force = _by_name(
         lambda: _errors(chosen, scene),

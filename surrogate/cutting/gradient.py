@@ -85,6 +85,7 @@ def force_gradient(
     rtol: float | None = None,
     extrapolate: bool = False,
     law: str = AUTO,
+    notch_radius: float | None = None,
 ) -> ForceGradient:
     """Return the analytic derivatives of the cutting force by every quantity of a scene.
 
@@ -117,6 +118,9 @@ def force_gradient(
         "coupled" wherever coupled solutions reach, whose first order "slip" is, and "projected"
         elsewhere. The derivatives are those of the law at the point, also beside a point that has
         the other one.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], with law="slip", as in `cutting_force`; it stays where the
+        wire's radius changes.
 
     Returns
     -------
@@ -168,7 +172,7 @@ def force_gradient(
     extrapolate = flag("extrapolate", extrapolate)
     require_scene(scene)
     law = law_for(scene, law)
-    by_law = parted(model, law, rtol, scene.values())
+    by_law = parted(model, law, rtol, scene.values(), notch_radius)
     chosen = by_law.model
     if not isinstance(chosen, FittedModel):
         chosen.stiffening.checked(scene.stiffening_exponent)
@@ -176,6 +180,8 @@ def force_gradient(
         mu, gamma, radius, _, _, alpha = scene.values()
         require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
         require_known_load(chosen, scene.values())
+    else:
+        chosen.require_known(scene.values())
     with np.errstate(all="ignore"):
         slopes = by_law.evaluate(lambda one, part: apply(one.gradient, part, (float,) * 6))
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"

@@ -107,6 +107,7 @@ def classify(
     rtol: float | None = None,
     extrapolate: bool = False,
     law: str = AUTO,
+    notch_radius: float | None = None,
 ) -> Regime:
     """Return which term of the force dominates, and whether the wire touches the crack tip.
 
@@ -127,6 +128,8 @@ def classify(
     law : str, default "auto"
         Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
         each cut is classified by the law of its own force, which `laws` of the result tells.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], with law="slip", as in `cutting_force`.
 
     Returns
     -------
@@ -181,7 +184,7 @@ def classify(
     extrapolate = flag("extrapolate", extrapolate)
     law = law_for(scene, law)
     warn_if_other_law(scene, model, law)
-    model = of_law(model, law, any_law=True)
+    model = of_law(model, law, True, notch_radius)
     split = isinstance(model, str) and model == SPLIT_MODEL
     force = None if split else force_of(scene, model, rtol, extrapolate)
     regime = regime_of(scene, force, share, model)

@@ -19,11 +19,12 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import apply, quotient
 from surrogate.basics.records import Shown
-from surrogate.choosing.accuracy import contact_std
+from surrogate.choosing.accuracy import contact_bounds, contact_std, std_of_bound
 from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import COUPLED, PROJECTED
 from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
+from surrogate.coupling.notched import NotchedModel
 from surrogate.cutting.force import force_of, warn_if_other_law
 from surrogate.cutting.gradient import force_gradient
 from surrogate.cutting.other_law import law_for
@@ -99,6 +100,7 @@ def propagate(
     *,
     correlation: Correlations | None = None,
     law: str = AUTO,
+    notch_radius: float | None = None,
 ) -> UncertainForce:
     """Return the cutting force with its standard deviation, from those of the scene's quantities.
 
@@ -128,6 +130,8 @@ def propagate(
     law : str, default "auto"
         Which functions of the contact wear and friction follow, as in `force_gradient`. Where
         nobody knows the error of the law, `std` is without it, and `doubts` says so.
+    notch_radius : float, optional
+        Radius of the crack's tip [m], with law="slip", as in `cutting_force`.
 
     Returns
     -------
@@ -180,10 +184,10 @@ def propagate(
     law = law_for(scene, law)
     warn_if_other_law(scene, model, law)
     scene = replace(scene, law=None)  # which is warned of already
-    by_law = parted(model, law, rtol, scene.values())
+    by_law = parted(model, law, rtol, scene.values(), notch_radius)
     errors = _checked(std)
     rho = correlation_matrix(list(errors), {} if correlation is None else correlation)
-    gradient = force_gradient(scene, model, rtol, extrapolate, law)
+    gradient = force_gradient(scene, model, rtol, extrapolate, law, notch_radius)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
         (np.zeros(scene.shape) if scene.shape else 0.0, *errors.values()),
@@ -269,7 +273,10 @@ def _model_std(chosen: ForceModel, scene: tuple[Any, ...]) -> Any:
     """Return the force's standard deviation from those of A and B, or None where there are none."""
     mu, gamma, radius, xi, wear, alpha = scene
     with np.errstate(all="ignore"):
-        stds = contact_std(chosen, apply(quotient, (gamma, mu, radius)), alpha)
+        g = apply(quotient, (gamma, mu, radius))
+        if isinstance(chosen, NotchedModel):
+            return (_of_bounds(chosen, scene, contact_bounds(chosen, g, alpha)),)
+        stds = contact_std(chosen, g, alpha)
         if stds is None:
             return None
         arc, load = np.multiply(2.0 * radius, wear), np.multiply(2.0 * radius, xi) * mu
@@ -279,13 +286,23 @@ def _model_std(chosen: ForceModel, scene: tuple[Any, ...]) -> Any:
         return (first + np.zeros(np.broadcast_shapes(*map(np.shape, scene))),)
 
 
+def _of_bounds(chosen: NotchedModel, scene: tuple[Any, ...], measured: Any) -> Any:
+    """Return the deviation of a force whose terms have a bound each, nan where that is unknown."""
+    friction, wear = chosen.terms(*scene)
+    stds = [
+        np.where(np.isfinite(bound), std_of_bound(bound), np.nan)
+        for bound in chosen.bounds_of(scene, measured)
+    ]
+    return np.hypot(_times(stds[0], wear), _times(stds[1], friction))
+
+
 def _amplified(chosen: Any, scene: tuple[Any, ...], first: Any) -> tuple[Any, Any]:
     """Return the deviation of the first order times kappa, and that of kappa itself."""
     mu, gamma, radius, xi, wear, alpha = scene
     load = apply(quotient, (gamma, mu, radius)), alpha, xi, np.divide(wear, mu)
     kappa = np.exp(chosen.amplification.log_factor(*load))
     drag = np.add(*chosen.terms(*scene))
-    return first * kappa, drag * np.expm1(chosen.amplification.error(*load)) / np.sqrt(3.0)
+    return first * kappa, drag * std_of_bound(np.expm1(chosen.amplification.error(*load)))
 
 
 def _combined(

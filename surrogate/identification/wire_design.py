@@ -12,6 +12,7 @@ from surrogate.basics.checks import Quantity, one_number, shown
 from surrogate.basics.records import Shown
 from surrogate.choosing.accuracy import one_model
 from surrogate.choosing.by_name import AUTO, force_model
+from surrogate.choosing.laws import PROJECTED, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.errors import InputError
 from surrogate.identification.experiment_design import RELATIVE_FORCE_STD, whole_number
@@ -116,6 +117,11 @@ class WireDesign(Shown):
     left_out: tuple[str, ...] = ()
 
     @property
+    def law(self) -> str:
+        """The law of dissipation that is expected."""
+        return force_model(self.model).law
+
+    @property
     def wire_radius(self) -> Array:
         """R_w of each cut [m]."""
         radii = [0.5 * wire.diameter for wire in self.wires]
@@ -133,6 +139,7 @@ def design_wires(
     diameters: ArrayLike | None = None,
     thickness: float | None = None,
     goal: str = "both",
+    law: str | None = None,
 ) -> WireDesign:
     """Choose wires and the number of cuts with each, so that identification errs least.
 
@@ -164,6 +171,10 @@ def design_wires(
         Thickness T of the sample [m], to leave out wires that would break.
     goal : {"both", "toughness", "wear_strength"}, default "both"
         Whose error to make small.
+    law : str, optional
+        The law of dissipation, "projected", "slip" or "coupled", of what is expected; by default
+        that of the earlier result or of the scene's parameters, and else "projected". Under
+        "coupled" only wires to whose forces coupled solutions reach are considered.
 
     Returns
     -------
@@ -195,7 +206,7 @@ def design_wires(
     >>> sum(wire.cuts for wire in design.wires), len(design.wires) >= 3
     (8, True)
     """
-    materials, chosen = _materials(expected, model, rtol)
+    materials, chosen = _materials(expected, model, rtol, law)
     noise = _noise(force_std, relative_force_std)
     count = _checked_count(cuts, goal)
     radius, left_out = _candidates(materials, chosen, diameters, thickness)
@@ -233,11 +244,16 @@ def _wires(materials: Materials, model: str | ForceModel, radii: Array) -> Itera
 
 
 def _materials(
-    expected: Scene | Identification, model: str | ForceModel | None, rtol: float | None
+    expected: Scene | Identification,
+    model: str | ForceModel | None,
+    rtol: float | None,
+    law: str | None,
 ) -> tuple[Materials, str | ForceModel]:
-    """Return what is expected and the name of the model."""
+    """Return what is expected and the model, by its name where the law is the projected one."""
     if isinstance(expected, Identification):
-        chosen = expected.model if model is None else one_model(model, rtol).name
+        own = model is None and law is None
+        named = force_model(expected.model).name if model is None else model
+        chosen = expected.model if own else _under(named, law or expected.law, rtol)
         if "shear_modulus" in expected.assumed:
             raise InputError(
                 "expected must have a shear modulus, but none was given to identify; give it there."
@@ -245,7 +261,7 @@ def _materials(
         toughness, wear = _admitted(expected)
         return Materials(toughness, wear, expected.cuts), chosen
     require_scene(expected, "expected")
-    chosen = one_model(AUTO if model is None else model, rtol).name
+    chosen = _under(AUTO if model is None else model, law or expected.law or PROJECTED, rtol)
     solid = (expected.shear_modulus, expected.friction_coefficient, expected.stiffening_exponent)
     if not all(isinstance(value, float) for value in solid):
         raise InputError(
@@ -261,6 +277,12 @@ def _materials(
         )
     one = np.ones(1)
     return Materials(toughness, wear, Cuts(one, one, None, *map(float, solid))), chosen  # type: ignore[arg-type]
+
+
+def _under(model: str | ForceModel, law: str, rtol: float | None) -> str | ForceModel:
+    """Return a model under a law, by its name where that is the projected one."""
+    lawful = one_model(of_law(model, law), rtol)
+    return lawful.name if law == PROJECTED else lawful
 
 
 def _admitted(fit: Identification) -> tuple[Array, Array]:
@@ -331,7 +353,9 @@ def _candidates(
         force = one_number(THICKNESS, thickness) * materials.forces(model, radius).max(axis=0)
         holds = np.array([breaking_force(r) for r in radius]) >= SAFETY * force
         left_out += _named(radius, holds, "a steel wire would not carry twice the force")
-    radius = radius[inside & holds]
+    known = materials.reached(model, radius)
+    left_out += _named(radius, known, "no coupled solution is near their friction and wear")
+    radius = radius[inside & holds & known]
     if not has_middle(radius):
         raise InputError(
             f"{radius.size} wires are left to choose from, where three are needed: a thin one, a "

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from surrogate.choosing.by_name import force_model
 from surrogate.contact.base import ForceModel
+from surrogate.coupling.frozen import frozen
+from surrogate.coupling.model import CoupledModel
 from surrogate.identification.further_wire import forces_of
 from surrogate.inference.inputs import NOTHING_KNOWN, Cuts
 from surrogate.inference.misfit import Misfit
@@ -59,6 +61,15 @@ class Materials:
         """Return F_ss/T [N/m] of each material on each wire."""
         return forces_of(force_model(model), self.cuts, self.toughness, self.wear_strength, radius)
 
+    def reached(self, model: str | ForceModel, radius: Array) -> NDArray[np.bool_]:
+        """Return on which wires the law knows the force of the first material."""
+        lawful, one, cuts = force_model(model), np.ones(radius.shape), self.cuts
+        if not isinstance(lawful, CoupledModel):
+            return np.ones(radius.shape, dtype=bool)
+        solid = cuts.friction_coefficient, self.wear_strength[0], cuts.stiffening_exponent
+        scene = cuts.shear_modulus * one, self.toughness[0] * one, radius, *solid
+        return np.asarray(lawful.in_domain(*scene))
+
     def g(self, radius: Array) -> Array:
         """Return Gamma_o/(mu R_w) [-] of each material and wire."""
         return np.asarray(self.toughness[:, np.newaxis] / (self.cuts.shear_modulus * radius))
@@ -99,7 +110,11 @@ def _misfit(
     solid = replace(
         materials.cuts, wire_radius=radii, force=force, force_std=std, weights=None, sample=None
     )
-    return Misfit(force_model(model), solid, NOTHING_KNOWN, 1.0)
+    lawful = force_model(model)
+    if isinstance(lawful, CoupledModel):  # whose tangent in tau_w is what intervals are of
+        relative = float(materials.wear_strength[which]) / solid.shear_modulus
+        lawful = frozen(lawful, solid.friction_coefficient, relative)
+    return Misfit(lawful, solid, NOTHING_KNOWN, 1.0)
 
 
 @dataclass(frozen=True, eq=False)

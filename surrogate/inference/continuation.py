@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.choosing.accuracy import contact_bounds
+from surrogate.choosing.accuracy import contact_bounds, std_of_bound
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel
 from surrogate.coupling.frozen import FrozenLoad
@@ -118,7 +118,7 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
     factors: tuple[Array, ...] = ()
     if isinstance(model, FrozenLoad):
         factors = tuple(
-            np.fmin(part, LARGEST_ERROR) / np.sqrt(3.0)
+            std_of_bound(np.fmin(part, LARGEST_ERROR))
             for part in np.broadcast_arrays(*model.own_error(np.maximum(g, _TINY), alpha))
         )
     below, above = g < low, g > high
@@ -131,8 +131,8 @@ def contact_error(model: ForceModel, g: Array, alpha: float) -> ContactError | N
                 beyond = np.abs(np.log(g) - np.log(inside))  # infinite at g = 0
             rate = np.maximum(np.where(below, *rates), bound)
             drift = np.where(below | above, np.minimum(beyond, FARTHEST) * rate, 0.0)
-        drifts.append(np.minimum(drift, LARGEST_ERROR) / np.sqrt(3.0))
-    arc, load = (bound / np.sqrt(3.0) for bound in near)
+        drifts.append(std_of_bound(np.minimum(drift, LARGEST_ERROR)))
+    arc, load = map(std_of_bound, near)
     return ContactError(arc, load, drifts[0], drifts[1], below, above, *factors)
 
 

@@ -21,10 +21,10 @@ from surrogate.coupling.coverage import bounds_over, uncovered
 from surrogate.coupling.model import CoupledModel
 from surrogate.errors import AccuracyError, DomainError, InputError
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import ALPHA, RUBBING, WITHOUT_SHEAR, Plan
+from surrogate.prepared.plan import ALPHA, Plan
 from surrogate.prepared.proof import Beside, force_error, lowest_of_highest
 
-__all__ = ["Parts", "Ranges", "cheapest", "data_of", "named", "of_any_law", "require"]
+__all__ = ["Parts", "Ranges", "cheapest", "data_of", "named", "of_any_law", "require", "with_law"]
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -50,10 +50,7 @@ class Parts:
     kappa : Amplification, optional
         What the terms are multiplied by.
     promised : float
-        The bound of what is told: of `error`, or of that beside finite elements on which the wire
-        rubs [-].
-    beside : str
-        Which of the two.
+        The bound of that beside finite elements on which the wire rubs [-]; nan without one.
     """
 
     name: str
@@ -61,15 +58,14 @@ class Parts:
     table: TableModel | None
     form: Any
     error: float
-    promised: float
-    beside: str = WITHOUT_SHEAR
+    promised: float = math.nan
     law: str = PROJECTED
     kappa: Amplification | None = None
 
     def force(self, varying: tuple[str, ...], box: Ranges) -> ForceFunction:
         """Return the force."""
         plan = Plan(varying, box, self.form, self.table, self.of_table, self.law, self.kappa)
-        return ForceFunction(plan, self.promised, data_of(self.table), self.error, self.beside)
+        return ForceFunction(plan, self.promised, data_of(self.table), self.error)
 
 
 def cheapest(box: Ranges, terms: list[str], rtol: float) -> Parts:
@@ -97,11 +93,12 @@ def _error_of(
     terms: Sequence[str],
     of_table: Sequence[str],
     beside: Beside | None = None,
+    stand_ins: Mapping[str, str] | None = None,
 ) -> float:
     """Return the bound of the force's error with some terms of the table, others of Eq. (13)."""
     models = {term: OUTSIDE if term in of_table else FREE for term in terms}
     functions = dict(zip(TERMS, known.terms, strict=True))
-    return force_error(known, box, models, functions, beside)
+    return force_error(known, box, models, functions, beside, stand_ins)
 
 
 def _parts(table: Any, of_table: tuple[str, ...], box: Ranges, error: float) -> Parts:
@@ -110,7 +107,7 @@ def _parts(table: Any, of_table: tuple[str, ...], box: Ranges, error: float) -> 
         _require_domain(table.limits, box)
     form = FORCE_MODELS[FREE]
     used = table if of_table else None
-    return Parts(table.name, of_table, used, form, error, error, law=table.law)
+    return Parts(table.name, of_table, used, form, error, law=table.law)
 
 
 def named(model: object, box: Ranges, terms: list[str]) -> Parts:
@@ -130,7 +127,7 @@ def named(model: object, box: Ranges, terms: list[str]) -> Parts:
     if chosen.name == FREE:
         error = _error_of(candidates(), box, terms, ())
     error = error if error < math.inf else math.nan
-    return Parts(chosen.name, (), None, chosen, error, error)
+    return Parts(chosen.name, (), None, chosen, error)
 
 
 def _error_of_table(
@@ -158,7 +155,7 @@ def _coupled(slip: TableModel, kappa: Amplification, box: Ranges, terms: list[st
 
     error = _error_of_table(slip, box, terms, beside)
     parts = _parts(slip, tuple(terms), box, error)
-    return replace(parts, law=COUPLED, kappa=kappa if terms else None, beside=RUBBING)
+    return replace(parts, law=COUPLED, kappa=kappa if terms else None, promised=error)
 
 
 def of_any_law(box: Ranges, terms: list[str], table: Any, rtol: float | None) -> Parts:
@@ -171,7 +168,7 @@ def of_any_law(box: Ranges, terms: list[str], table: Any, rtol: float | None) ->
     if parts is None:
         auto = table is None
         parts = cheapest(box, terms, DEFAULT_RTOL) if auto else named(table, box, terms)
-        parts = replace(parts, promised=math.nan if terms else 0.0, beside=RUBBING)
+        parts = replace(parts, promised=math.nan if terms else 0.0)
     if rtol is not None and not parts.promised <= rtol:
         raise AccuracyError(_not_met(box, rtol, parts))
     return parts
@@ -186,23 +183,46 @@ def _known_law(box: Ranges, terms: list[str], named_table: Any, rtol: float | No
     if not isinstance(slip, TableModel):
         return None
 
-    def left_out(g: tuple[float, float], alpha: tuple[float, float]) -> tuple[float, float]:
-        most = bounds_over(kappa, g, alpha, box)[1]
-        return most, most
-
-    wanted = DEFAULT_RTOL if rtol is None else rtol
+    wanted, left_out = DEFAULT_RTOL if rtol is None else rtol, _left_out(kappa, box)
     known, possible = candidates(law=SLIP), []
     for choice in _choices(terms) if named_table is None else [tuple(terms)]:
         error = _error_of(known, box, terms, choice, left_out)
         if error < math.inf:
             first = _parts(slip, choice, box, _error_of(known, box, terms, choice))
             law = SLIP if choice else PROJECTED
-            possible.append(replace(first, promised=error, beside=RUBBING, law=law))
+            possible.append(replace(first, promised=error, law=law))
         if error <= wanted:
             return possible[-1]
     amplified = _coupled(slip, kappa, box, terms)
     possible += [amplified] if amplified.error == amplified.error else []
     return min(possible, key=lambda each: each.promised, default=None)
+
+
+def _left_out(kappa: Amplification, box: Ranges) -> Beside:
+    """Return by how much the logarithm of a term is off without kappa, and its true one away."""
+
+    def most(g: tuple[float, float], alpha: tuple[float, float]) -> tuple[float, float]:
+        largest = bounds_over(kappa, g, alpha, box)[1]
+        return largest, largest
+
+    return most
+
+
+def with_law(parts: Parts, box: Ranges, terms: list[str]) -> Parts:
+    """Return parts of a named law with the error of the fit and of the law together.
+
+    Unknown where `parts.error` is, or to the loads of some scenes no coupled solution reaches.
+    """
+    if parts.law == COUPLED or not terms or parts.error != parts.error:
+        return parts if terms else replace(parts, promised=0.0)
+    kappa = amplification_of_models(parts.table)
+    if kappa is None or uncovered(kappa, box) is not None:
+        return parts
+    known = candidates(law=SLIP)
+    stand_ins = dict(zip(known.terms, TERMS, strict=True)) if parts.law == PROJECTED else None
+    left_out = _left_out(kappa, box)
+    error = _error_of(known, box, terms, parts.of_table, left_out, stand_ins)
+    return replace(parts, promised=error if error < math.inf else math.nan)
 
 
 def _not_met(box: Ranges, rtol: float, parts: Parts) -> str:

@@ -17,7 +17,7 @@ from surrogate.contact.fitted import PROJECTED
 from surrogate.errors import DomainError, InputError
 from surrogate.prepared.inverse import inverse, is_monotonic
 from surrogate.prepared.namespaces import evaluate_elsewhere, is_foreign
-from surrogate.prepared.plan import ARC, LOAD, RUBBING, WITHOUT_SHEAR, Plan
+from surrogate.prepared.plan import ARC, LOAD, RUBBING, Plan
 from surrogate.scene import NAMES, QUANTITIES
 
 __all__ = ["OUTSIDE", "ForceFunction"]
@@ -43,14 +43,12 @@ class ForceFunction:
     plan : Plan
         How it is evaluated.
     relative_error : float
-        Proven bound of the relative error anywhere in the ranges [-], beside what `beside` says;
-        nan where there is none.
+        Proven bound of the relative error anywhere in the ranges [-], beside finite elements on
+        which the wire rubs: of the models and of the law together. nan where nobody knows it.
     data : mapping of str to str
         What the coefficients come from.
     fit_error : float
         The part of the models: beside finite elements of the force's own law [-].
-    beside : str, default "without shear on the wire"
-        On which finite elements: "without shear on the wire", or "on which the wire rubs".
 
     References
     ----------
@@ -71,7 +69,11 @@ class ForceFunction:
     relative_error: float
     data: Mapping[str, str] = field(repr=False)
     fit_error: float
-    beside: str = WITHOUT_SHEAR
+
+    @property
+    def beside(self) -> str:
+        """Beside which finite elements `relative_error` is: "on which the wire rubs"."""
+        return RUBBING
 
     @property
     def varying(self) -> tuple[str, ...]:
@@ -305,10 +307,9 @@ class ForceFunction:
         models = ", ".join(f"{term} by {model}" for term, model in self.terms.items())
         law = "" if self.law == PROJECTED else f", law of {self.law}"
         error = f"error {_percent(self.relative_error)}"
-        if self.beside == RUBBING and self.law == PROJECTED and self.terms:
+        if self.law == PROJECTED and self.terms:
             law = ", projected law"
-            error = f"error of the law {_percent(self.relative_error)}"
-            error += f", of the models {_percent(self.fit_error)}"
+            error += f", of the models alone {_percent(self.fit_error)}"
         return f"F_ss/T over {ends}; {models or 'cleavage alone'}{law}; {error}"
 
 

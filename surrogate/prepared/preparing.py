@@ -11,7 +11,15 @@ from surrogate.choosing.by_name import AUTO, is_auto
 from surrogate.choosing.candidates import TERMS
 from surrogate.choosing.laws import SLIP, AnyLaw, of_law
 from surrogate.errors import InputError
-from surrogate.prepared.deciding import Parts, Ranges, cheapest, named, of_any_law, require
+from surrogate.prepared.deciding import (
+    Parts,
+    Ranges,
+    cheapest,
+    named,
+    of_any_law,
+    require,
+    with_law,
+)
 from surrogate.prepared.function import ForceFunction
 from surrogate.scene import NAMES, QUANTITIES, Scene
 
@@ -52,7 +60,7 @@ def prepare(
         Largest relative error of the force that will do [-]. None for any, which with the model
         "auto" and the law "projected" is 0.02; with the law "auto" it is 0.02 where one is known to
         keep it, else the best there is. With the laws "auto" and "coupled" it is the error beside
-        finite elements on which the wire rubs.
+        finite elements on which the wire rubs, with a named "projected" or "slip" `fit_error`.
     law : str, default "auto"
         The law of dissipation, as `cutting_force` takes it: "projected" for Eq. (S2), "slip" for
         the balance of energy to first order in tau_w and xi, "coupled" for the stresses acting on
@@ -118,11 +126,12 @@ def _decided(box: Ranges, terms: list[str], model: Any, law: Any, rtol: float | 
     if isinstance(chosen, AnyLaw):
         return of_any_law(box, terms, chosen.named, rtol)
     if is_auto(chosen):
-        return cheapest(box, terms, DEFAULT_RTOL if rtol is None else rtol)
+        parts = cheapest(box, terms, DEFAULT_RTOL if rtol is None else rtol)
+        return with_law(parts, box, terms)
     parts = named(chosen, box, terms)
     where = ", as it is where the crack's tip touches the wire" if law == SLIP else ""
     require(parts.error, rtol, repr(parts.name), where)
-    return parts
+    return with_law(parts, box, terms)
 
 
 def _box(fixed: Any, varying: Any, ranges: Any) -> Ranges:

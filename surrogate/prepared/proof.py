@@ -52,6 +52,7 @@ def force_error(
     models: Mapping[str, str],
     functions: Mapping[str, str],
     beside: Beside | None = None,
+    stand_ins: Mapping[str, str] | None = None,
 ) -> float:
     """Return the largest relative error of the force in a box of scenes [-].
 
@@ -68,6 +69,8 @@ def force_error(
     beside : callable, optional
         Of a range of g and one of alpha: by how much the logarithm of a term is off besides, and
         how far that of the true term may be from that of the function.
+    stand_ins : mapping of str to str, optional
+        Functions of the table that stand in for others, as A does for A* under the projected law.
 
     Returns
     -------
@@ -83,7 +86,13 @@ def force_error(
         besides = beside(whole, alpha) if beside else _NOTHING
         for g in _slices(whole):
             part = g, alpha
-            largest = max(largest, _in_cell(known, cell, part, ranges, models, functions, besides))
+            others = {
+                term: _apart(known, stand_ins[name], name, part)
+                for term, name in functions.items()
+                if stand_ins and models.get(term) == OUTSIDE
+            }
+            found = _in_cell(known, cell, part, ranges, models, functions, besides, others)
+            largest = max(largest, found)
     return largest
 
 
@@ -131,10 +140,16 @@ def _in_cell(
     models: Mapping[str, str],
     functions: Mapping[str, str],
     besides: tuple[float, float],
+    others: Mapping[str, tuple[float, float]],
 ) -> float:
     more, away = math.expm1(besides[0]), math.exp(besides[1])
-    own = {t: float(known.error(models[t], functions[t])[cell]) for t in models}
-    errors = {term: error + more * (1.0 + error) for term, error in own.items()}
+    errors = {}
+    for term in models:
+        own = float(known.error(models[term], functions[term])[cell])
+        if term in others:
+            least, most = others[term]
+            own = max(most * (1.0 + own) - 1.0, 1.0 - least * (1.0 - own))
+        errors[term] = own + more * (1.0 + own)
     if not all(map(math.isfinite, errors.values())):
         return math.inf
     shares = []
@@ -143,6 +158,18 @@ def _in_cell(
         least, most = _between(known, cell, term, functions[term], part)
         shares.append((low * least / away, high * most * away))
     return max(_error(corner, list(errors.values())) for corner in product(*shares))
+
+
+def _apart(
+    known: Candidates,
+    name: str,
+    other: str,
+    part: tuple[tuple[float, float], tuple[float, float]],
+) -> tuple[float, float]:
+    """Return between which numbers one function of the table over another one is."""
+    table: Any = known.fitted.models[OUTSIDE]
+    (low, high), (least, most) = (table.table.between(each, *part) for each in (name, other))
+    return low / most, high / least
 
 
 def _between(

@@ -17,7 +17,7 @@ from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP
 from surrogate.coupling.amplification import Amplification, edge_of
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
-from surrogate.prepared.plan import GAMMA, MU, RADIUS, RUBBING, WEAR, WITHOUT_SHEAR, XI, Plan
+from surrogate.prepared.plan import GAMMA, MU, RADIUS, WEAR, WITHOUT_SHEAR, XI, Plan
 from surrogate.prepared.statements import (
     COEFFICIENTS,
     arrays_of,
@@ -134,7 +134,7 @@ _LAWS = {
 def _errors(force: Any) -> list[str]:
     """Return the lines that say how far the force may be off, and beside what."""
     lines = [_error(force.relative_error, force.beside)]
-    if force.beside == RUBBING and force.law != COUPLED:
+    if force.law != COUPLED:
         lines += [_error(force.fit_error, WITHOUT_SHEAR)]
     unknown = force.fit_error != force.fit_error
     if force.law == SLIP and unknown:

@@ -12,7 +12,7 @@ from surrogate.contact.bounds import interval
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.prepared.deciding import data_of
 from surrogate.prepared.function import ForceFunction
-from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, RUBBING, WITHOUT_SHEAR, Plan
+from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
 from surrogate.prepared.proof import force_error
 from surrogate.scene import NAMES
 
@@ -41,16 +41,15 @@ def whole_table(language: str, law: str = AUTO) -> str:
     >>> whole_table("python").count("def arc(g, alpha)")
     1
     """
-    any_law = isinstance(law, str) and law == AUTO
-    law = PROJECTED if any_law else law
+    law = PROJECTED if isinstance(law, str) and law == AUTO else law
     model: Any = of_law(force_model(OUTSIDE), law)
     kappa = model.amplification if law == COUPLED else None
     table = model if kappa is None else model.slip
     form: Any = FORCE_MODELS[FREE]
     plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law, kappa)
     error = _error(law, kappa)
-    told = (math.nan, RUBBING) if any_law else (error, RUBBING if kappa else WITHOUT_SHEAR)
-    return ForceFunction(plan, told[0], data_of(table), error, told[1]).source(language)
+    told = math.nan if kappa is None else error
+    return ForceFunction(plan, told, data_of(table), error).source(language)
 
 
 def _error(law: str, kappa: Any) -> float:

@@ -48,6 +48,26 @@ def test_an_earlier_result_brings_material_model_and_scatter(run, tmp_path, caps
     assert "If Gamma_o = " in printed
 
 
+TISSUE = "--shear-modulus 10kPa --friction-coefficient 0.02 --stiffening-exponent 5"
+
+
+def test_a_result_of_the_coupled_law_is_taken_as_it_is(run, tmp_path, capsys):
+    cuts, result = tmp_path / "cuts.csv", tmp_path / "gel.json"
+    rows = "0.2,6.05\n0.4,6.28\n0.6,6.63\n0.8,6.86\n1,7.21\n"
+    cuts.write_text("wire_radius_mm,force_per_thickness_N_per_m\n" + rows)
+    assert main(shlex.split(f"identify {cuts} {TISSUE} --json")) == 0
+    result.write_text(capsys.readouterr().out)
+    earlier = json.loads(result.read_text())
+    assert earlier["law"] == "coupled"
+    code, printed, _ = run(f"--result {result} --cuts 3 --json")
+    record = json.loads(printed)
+    assert (code, record["law"], record["model"]) == (0, "coupled", "table")
+    assert record["toughness"] == earlier["toughness"]
+    assert any("no coupled solution is near" in words for words in record["left_out"])
+    guess = f"{TISSUE} --toughness 5J/m2 --wear-strength 800Pa --relative-error 5% --cuts 3"
+    assert "model table, law coupled" in run(f"{guess} --law coupled")[1]
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

@@ -24,8 +24,8 @@ def test_it_writes_a_file_and_says_what_it_is(tmp_path, capsys):
     assert main(["export", "--format", "javascript", *GEL, *RADIUS, "--out", str(out)]) == 0
     text = capsys.readouterr().out
     assert (
-        "F_ss/T over wire_radius from 0.0001 to 0.001; wear by table, projected law; error of the "
-        "law unknown, of the models up to"
+        "F_ss/T over wire_radius from 0.0001 to 0.001; wear by table, projected law; error "
+        "unknown, of the models alone up to"
     ) in text
     assert out.read_text().startswith("// Steady cutting force")
     assert main(["export", "--format", "javascript", "--table", "--json"]) == 0

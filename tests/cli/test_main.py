@@ -159,6 +159,19 @@ def test_the_models_are_listed_with_domain_error_and_cost(capsys):
         assert ("%" in line) == (model.error is not None)
 
 
+@pytest.mark.parametrize("law", ["projected", "slip", "coupled"])
+def test_the_models_of_a_law_are_listed_with_their_errors_beside_coupled_solutions(law, capsys):
+    assert run(f"models --law {law} --json") == 0
+    listed = json.loads(capsys.readouterr().out)["models"]
+    assert listed == [asdict(model) for model in models(law)]
+    assert {model["law"] for model in listed} == {law}
+    assert ({model["name"] for model in listed} == {*FITTED_NAMES}) == (law != "projected")
+    assert run(f"models --law {law}") == 0
+    printed = capsys.readouterr().out
+    assert f"Law {law}: how far F_ss may be off" in " ".join(printed.split())
+    assert "models/coupled-card.md" in " ".join(printed.split())
+
+
 def test_options_replace_the_properties_of_a_file(capsys):
     material = model_file("paam-material.json")
     table = model_file("paam-wire-cutting.csv")

@@ -153,9 +153,12 @@ def test_a_result_of_the_other_law_gives_a_map_of_that_law(run, lab):
     made = json.loads(run("map --points slip.json --nodes 11 --json")[1])
     assert made["model"] == "table, law slip"
     assert made["points"][0]["y"] == pytest.approx(json.loads(result)["toughness"], rel=1e-9)
-    code, _, err = run("design --result slip.json")
+    designed = json.loads(run("design --result slip.json --cuts 3 --json")[1])
+    assert (designed["law"], designed["model"]) == ("slip", "table")
+    assert run("design --result slip.json --law slip --cuts 3")[0] == 0
+    code, _, err = run("design --result slip.json --law coupled")
     assert code == 2
-    assert "was identified by the law 'slip', under which no wires are designed" in err
+    assert "was identified by the law 'slip', whose wear strength is not that of another" in err
 
 
 @pytest.mark.parametrize("std", [0.3, 0.6])

@@ -1,11 +1,12 @@
 """Which wires to buy: what a design promises, beside identifications of made-up experiments."""
 
+from dataclasses import replace
 from itertools import combinations_with_replacement
 
 import numpy as np
 import pytest
 
-from surrogate import InputError, Scene, design_wires, identify
+from surrogate import InputError, Scene, cutting_force, design_wires, identify
 from surrogate.choosing.by_name import force_model
 from surrogate.identification.further_wire import DIAMETERS, sold_radii
 from surrogate.identification.wire_promise import WORTH_A_SIZE, Losses, Materials, has_middle
@@ -137,3 +138,41 @@ def test_what_is_no_guess_is_refused():
         with pytest.raises(InputError, match=words):
             design_wires(expected, force_std=1.0)
     assert sold_radii(1.0, 2.0).size == 0
+
+
+@pytest.mark.parametrize("law", ["slip", "coupled"])
+def test_the_errors_to_first_order_are_those_of_an_identification_of_the_law(law):
+    tissue = Scene(10e3, 5.0, 1.0, 0.02, 800.0, 5.0)
+    design = design_wires(tissue, 6, relative_force_std=0.02, law=law)
+    assert (design.law, force_model(design.model).name) == (law, "table")
+    wires = replace(tissue, wire_radius=design.wire_radius)
+    force = cutting_force(wires, "table", law=law).total
+    fit = identify(
+        design.wire_radius,
+        force,
+        10e3,
+        friction_coefficient=0.02,
+        stiffening_exponent=5.0,
+        force_std=0.02 * force,
+        law=law,
+    )
+    assert (fit.toughness, fit.wear_strength) == pytest.approx((5.0, 800.0), rel=1e-4)
+    errors = fit.toughness_std, fit.wear_strength_std
+    assert errors == pytest.approx(design.first_order_std, rel=2e-3)
+    assert (design.toughness_std, design.wear_strength_std) == pytest.approx(errors, rel=0.15)
+    again = design_wires(fit, 6, relative_force_std=0.02)
+    assert again.law == law
+    known = cutting_force(wires, law="coupled", outside="nan").in_domain
+    assert np.all(known) == (law == "coupled") or law == "slip"
+
+
+def test_a_scene_of_a_law_is_designed_for_under_it():
+    tissue = Scene(10e3, 5.0, 1.0, 0.02, 800.0, 5.0, law="coupled")
+    design = design_wires(tissue, 3, relative_force_std=0.05)
+    assert design.law == "coupled"
+    assert any("no coupled solution is near" in words for words in design.left_out)
+    with pytest.raises(InputError, match="law must be one of"):
+        design_wires(tissue, 3, relative_force_std=0.05, law="auto")
+    much = replace(tissue, wear_strength=5e5)
+    with pytest.raises(InputError, match="no coupled solution is near their friction and wear"):
+        design_wires(much, 3, relative_force_std=0.05)

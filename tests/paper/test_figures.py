@@ -29,7 +29,7 @@ from surrogate.errors import InputError
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FITTED = ("1c", "map", "misfit")
-FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "specimens", *FITTED)
+FIGURES = ("2c", "3a", "4", "table-1", "contact", "eq13", "eq13-coupled", "specimens", *FITTED)
 PARTS = (
     *(
         "experiment",
@@ -40,6 +40,7 @@ PARTS = (
         "exponents",
         "local exponents",
         "eq13",
+        "eq13 coupled",
     ),
     *("evidence", "blocks", "sizes"),
 )
@@ -183,10 +184,11 @@ def test_everything_with_fitted_models(data_file, script, tmp_path, monkeypatch,
     made = {path.name for folder in (out, pictures) for path in folder.iterdir()}
     assert made == {
         f"paper-{name}.{ending}"
-        for name in set(FIGURES) - {"3a"}
+        for name in set(FIGURES) - {"3a", "eq13-coupled"}
         for ending in ("csv", "pdf", "png")
     }
-    assert "old" not in page.read_text()
+    assert "eq13-coupled: not made: the law 'coupled' must have the file" in printed
+    assert page.read_text().count("old") == 1  # the table of that law
     # 2B = 4 + 0.6 g of the made-up engine at g = 1 ... 10
     assert re.search(r"\| 2 \| 1 to 100 \| 1\.18 \| 0\.\d+ \|", page.read_text())
     with (out / "paper-1c.csv").open() as stream:
@@ -215,6 +217,6 @@ def test_what_is_missing_is_named_and_the_rest_is_made(
     printed = capsys.readouterr().out
     for name in (*FITTED, "specimens"):
         assert f"{name}: not made: " in printed
-    for name in ("2c", "4", "table-1", "contact", "eq13"):
+    for name in ("2c", "4", "table-1", "contact", "eq13", "eq13-coupled"):
         assert f"{name}: written" in printed
     assert page.read_text().count("old") == 5  # experiment, laws, evidence, blocks, sizes

@@ -151,7 +151,7 @@ def test_auto_is_one_law_whose_error_is_proven_or_said_to_be_unknown(load):
     if rtol is None:
         assert np.isnan(force.relative_error)
         assert force.fit_error <= 0.02
-        assert "error of the law unknown, of the models up to" in str(force)
+        assert "error unknown, of the models alone up to" in str(force)
         with pytest.raises(AccuracyError, match=r"is known to nobody, as at xi = 0\.9"):
             of(("wire_radius",), "auto", fixed, rtol=0.5)
         return
@@ -177,7 +177,7 @@ def test_a_named_model_has_a_law_chosen_too():
     table = of(("wire_radius",), "auto", model="table")
     assert (table.law, set(table.terms.values())) == (of(("wire_radius",), "auto").law, {"table"})
     formula = of(("wire_radius",), "auto", model="eq13")
-    assert (formula.law, formula.beside) == ("projected", "without shear on the wire")
+    assert formula.law == "projected"
     assert formula(1e-3) == of(("wire_radius",), "projected", model="eq13")(1e-3)
 
 
@@ -219,3 +219,22 @@ print("alike")
 @pytest.mark.skipif(find_spec("numba") is None, reason="numba is not installed")
 def test_with_numba_the_digits_are_the_same():
     assert prints_alike(BOTH)
+
+
+@pytest.mark.parametrize("load", ALONE.values(), ids=ALONE)
+@pytest.mark.parametrize("model", ["auto", "table"])
+@pytest.mark.parametrize("law", ["projected", "slip"])
+def test_the_error_of_a_named_law_is_that_of_its_models_and_of_itself(law, model, load):
+    fixed = replace(TISSUE, friction_coefficient=load[0], wear_strength=load[1])
+    force = of(("wire_radius", "stiffening_exponent"), law, fixed, model=model)
+    values = HERE.points(("wire_radius", "stiffening_exponent"), 300)
+    scene = HERE.scene_of(("wire_radius", "stiffening_exponent"), values, fixed)
+    coupled = cutting_force(scene, "table", law="coupled")
+    apart = np.abs(force(*values) / coupled.total - 1.0)
+    assert np.max(apart - coupled.relative_error) <= force.relative_error < 1.0
+    assert force.fit_error < force.relative_error
+    assert force.beside == "on which the wire rubs"
+    much = replace(fixed, wear_strength=1e6)
+    beyond = of(("wire_radius",), law, much, model=model)
+    assert np.isnan(beyond.relative_error)
+    assert beyond.fit_error < 0.1

@@ -223,7 +223,7 @@ def test_the_header_tells_what_it_is():
             "friction by table",
         ):
             assert words in head, (language, words)
-        assert f"up to {force.relative_error:.3g}" in head
+        assert f"up to {force.fit_error:.3g}" in head
     head = FORCES["slip"].source("c")[:2000]
     for words in ("tau_w A* + xi mu B*", "unknown", "tip touches the wire", "wear by table"):
         assert words in head

@@ -22,6 +22,7 @@ from fe_training.paper.specimen import read_results
 from surrogate import read_material, read_measurements
 from surrogate.basics.files import models_folder
 from surrogate.contact.shipped import fitted_from, read_fitted
+from surrogate.coupling.notched import NOTCH_FILE, notch_slip_of
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification_of
 from surrogate.errors import WirecutError
 
@@ -99,7 +100,9 @@ def kinds(folder):
 def _reader(path):
     """Return the function that reads a shipped file, and whether a checksum is beside it."""
     summed = path.with_name(path.name + ".sha256").is_file()
-    made_of = amplification_of if path.name == AMPLIFICATION_FILE else fitted_from
+    made_of = {AMPLIFICATION_FILE: amplification_of, NOTCH_FILE: _tip_of}.get(
+        path.name, fitted_from
+    )
     readers = {
         ".h5": read_rows if path.name == "coupled.h5" else load_campaign,
         ".npz": lambda file: made_of(*read_fitted(file)),
@@ -113,6 +116,10 @@ def _reader(path):
     if path.suffix == ".csv" and "wire-cutting" not in path.name:
         return None  # tables of results, which people read
     return (readers[path.suffix], summed) if path.suffix in readers else None
+
+
+def _tip_of(about, _):
+    return notch_slip_of(about)
 
 
 def _specimens(file):

@@ -45,6 +45,7 @@ BASE = {
     "extrapolate": False,
     "law": "projected",
     "outside": "raise",
+    "notch_radius": None,
     "std": {"toughness": 0.2, "wear_strength": 500.0},
     "correlation": {("toughness", "wear_strength"): -0.5},
     "x": "wire_radius",
