@@ -25,7 +25,7 @@ from fe_training.validation.model_errors import (
     summary,
 )
 from surrogate.contact.coordinates import QUANTITIES
-from surrogate.contact.process import ProcessModel
+from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.shipped import Fitted, shipped
 
 OFF_GRID = "off-grid.h5"

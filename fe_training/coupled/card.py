@@ -105,8 +105,8 @@ def _card(
         *_table(kappa, kappa.growth),
         "",
         "Reach: the largest load that is known, in units of xi = "
-        f"{kappa.largest[0]:g} and tau_w/mu = {kappa.largest[1]:g}, for friction alone / both / "
-        "wear alone:",
+        f"{kappa.load_unit[0]:g} and tau_w/mu = {kappa.load_unit[1]:g}, for friction alone / both "
+        "/ wear alone:",
         "",
         *_reach(kappa),
         "",

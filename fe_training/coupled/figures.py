@@ -173,7 +173,7 @@ def kappa_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> Non
     figure : matplotlib.figure.Figure
         Where to draw.
     """
-    paths = rays(data, kappa.largest)
+    paths = rays(data, kappa.load_unit)
     left, right = panels(figure, 2)[0]
     places = _places_drawn(paths)
     handles: list[Any] = []
@@ -251,7 +251,7 @@ def laws_figure(kappa: Amplification, figure: Figure) -> None:
     axes = panels(figure, 3, sharey=True)[0]
     shares = np.linspace(1e-3, 1.0, 400)
     zero = np.zeros_like(shares)
-    friction, wear = shares * kappa.largest[0], shares * kappa.largest[1]
+    friction, wear = shares * kappa.load_unit[0], shares * kappa.load_unit[1]
     over = np.geomspace(1e-3, 1e3, 600)
     handles: list[Any] = []
     for alpha, colour in zip(_ALPHAS, COLOURS, strict=False):
@@ -303,10 +303,10 @@ def ends_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> None
     figure : matplotlib.figure.Figure
         Where to draw.
     """
-    paths = rays(data, kappa.largest)
+    paths = rays(data, kappa.load_unit)
     axes = panels(figure, 3)[0]
     names = (r"largest $\xi$ known, no wear", r"largest $\tau_w/\mu$ known, no friction")
-    for ax, direction, largest, name in zip(axes, (0.0, 1.0), kappa.largest, names, strict=False):
+    for ax, direction, largest, name in zip(axes, (0.0, 1.0), kappa.load_unit, names, strict=False):
         shown = _reach_map(ax, kappa, direction, largest)
         bar = figure.colorbar(shown, ax=ax, location="bottom", pad=0.02, aspect=30)
         bar.set_label(name, fontsize=SMALL)
@@ -378,7 +378,7 @@ def draw_pictures(
     InputError
         If there is no equilibrium to draw, or a file cannot be written.
     """
-    if not rays(data, kappa.largest):
+    if not rays(data, kappa.load_unit):
         raise InputError("the data set has no equilibrium to draw; go on with the campaign.")
     folder.mkdir(parents=True, exist_ok=True)
     pictures: dict[str, tuple[tuple[float, float], Callable[[Figure], None]]] = {

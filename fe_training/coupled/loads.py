@@ -31,5 +31,5 @@ def samples_of(kappa: Amplification, count: int, seed: int = 1) -> Array:
     high = np.minimum(np.log(kappa.highest), kappa.axes[0][-1] + touch)
     x = low + place[:, 0] * (high - low) - touch
     part = kappa.reach_at(x, y, unit[:, 2]) * np.sqrt(unit[:, 3])
-    xi, wear = (part * most for most in edge_of(unit[:, 2], kappa.largest))
+    xi, wear = (part * most for most in edge_of(unit[:, 2], kappa.load_unit))
     return np.column_stack([x, y, xi, np.log1p(wear)])

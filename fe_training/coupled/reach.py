@@ -122,7 +122,7 @@ def trimmed(bare: Amplification, process: LoadProcess, rows: FitRows) -> Amplifi
         if not len(bad):
             break
         reach = kappa.reach.copy()
-        _, direction = load_of(bad[:, 2], np.expm1(bad[:, 3]), kappa.largest)
+        _, direction = load_of(bad[:, 2], np.expm1(bad[:, 3]), kappa.load_unit)
         nodes = [
             np.clip(np.searchsorted(axis, at, side="right") - 1, 0, len(axis) - 2)
             for axis, at in zip(kappa.axes, (bad[:, 0], bad[:, 1], direction), strict=True)

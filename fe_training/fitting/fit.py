@@ -20,7 +20,7 @@ from fe_training.fitting.touch import Touch, fit_touch
 from surrogate.basics.files import checksum_line
 from surrogate.contact.coordinates import SLIP_QUANTITIES
 from surrogate.contact.domain import Domain
-from surrogate.contact.process import ProcessModel
+from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.shipped import FILE, Fitted, content_of, to_file
 from surrogate.errors import InputError
 

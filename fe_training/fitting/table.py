@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from surrogate.contact.coordinates import STEPS, coordinates
 from surrogate.contact.grid import Grid
-from surrogate.contact.process import ProcessModel
+from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.table import CellTable
 from surrogate.contact.wedge import wedge_functions, wedge_load
 

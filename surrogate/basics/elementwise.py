@@ -37,6 +37,8 @@ __all__ = [
     "evaluate",
     "evaluate_checked",
     "exp",
+    "expm1",
+    "larger",
     "log",
     "over_sum",
     "product",
@@ -208,6 +210,24 @@ def log(x: Any) -> Any:
 def exp(x: Any) -> Any:
     """Return the exponential."""
     return np.exp(dense(x)) if type(x) is not float else float(np.exp(x))
+
+
+def expm1(x: Any) -> Any:
+    """Return the exponential less 1."""
+    return np.expm1(dense(x)) if type(x) is not float else float(np.expm1(x))
+
+
+def larger(a: Any, b: Any) -> Any:
+    """Return the larger of two, nan where one of them is.
+
+    Examples
+    --------
+    >>> larger(1.0, 2.0), larger(1.0, np.array([0.0, 3.0])).tolist()
+    (2.0, [1.0, 3.0])
+    """
+    if type(a) is type(b) is float:
+        return a if a >= b or a != a else b
+    return np.maximum(a, b)
 
 
 def dense(x: Any) -> Any:

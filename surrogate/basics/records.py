@@ -97,7 +97,7 @@ class LateRecord(Record):
     ... class Square(LateRecord):
     ...     side: float
     ...     area: float
-    >>> square = Square.later(lambda: {"area": print("asked") or 9.0}, side=3.0)
+    >>> square = Square.without("area")(lambda: {"area": print("asked") or 9.0}, 3.0)
     >>> square.side
     3.0
     >>> square.area, square.area
@@ -108,13 +108,21 @@ class LateRecord(Record):
     __slots__ = ("_late",)
 
     @classmethod
-    def later(cls, late: Callable[[], Mapping[str, Any]], **values: Any) -> Self:
-        """Return a record with some fields, of which a function tells the others."""
-        record = cls.__new__(cls)
-        for name, value in values.items():
-            object.__setattr__(record, name, value)
-        object.__setattr__(record, "_late", late)
-        return record
+    def without(cls, *names: str) -> Callable[..., Self]:
+        """Return what makes records of a function, which tells these fields, and the other fields.
+
+        They follow in their order.
+        """
+        others = ["_late", *(field.name for field in fields(cls) if field.name not in names)]  # type: ignore[arg-type]
+        setters = [getattr(cls, name).__set__ for name in others]
+
+        def record_of(*values: Any) -> Any:
+            record = object.__new__(cls)
+            for setter, value in zip(setters, values):  # noqa: B905 (every force passes here)
+                setter(record, value)
+            return record
+
+        return record_of
 
     def __getattr__(self, name: str) -> Any:
         """Compute the fields that are not set yet."""

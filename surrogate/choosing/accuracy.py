@@ -8,7 +8,7 @@ only afterwards. There "auto" is the cheapest model that is exact enough all ove
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import COUPLED, SLIP, FittedModel
 from surrogate.errors import AccuracyError
 
+if TYPE_CHECKING:
+    from surrogate.choosing.candidates import Candidates
+
 __all__ = ["contact_bounds", "contact_std", "one_model", "std_of_bound"]
 
 Array = NDArray[np.float64]
@@ -28,7 +31,9 @@ DEFAULT_RTOL = 0.02
 """What will do where nobody says otherwise, and some model is as exact."""
 
 
-def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array] | None:
+def contact_bounds(
+    model: ForceModel, g: Any, alpha: Any, known: Candidates | None = None
+) -> tuple[Any, Any] | None:
     """Return the measured bounds of the relative errors of A and B at points.
 
     Parameters
@@ -37,10 +42,12 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
         The model.
     g, alpha : float or ndarray
         Where [-].
+    known : Candidates, optional
+        The models of its law; by default those in use.
 
     Returns
     -------
-    tuple of ndarray, or None
+    tuple of float or ndarray, or None
         Of A and of B [-], infinite outside the domain; None for a model that is not fitted.
 
     Examples
@@ -52,16 +59,13 @@ def contact_bounds(model: ForceModel, g: Any, alpha: Any) -> tuple[Array, Array]
     """
     if not isinstance(model, FittedModel):
         return None
-    from surrogate.choosing.candidates import candidates
+    if known is None:
+        from surrogate.choosing.candidates import candidates
 
-    points: Any = np.broadcast_arrays(g, alpha)
-    if not points[0].ndim:
-        points = float(g), float(alpha)
-    known = candidates(law=SLIP if model.law == COUPLED else model.law)
-    holds = known.limits.all_hold(*points)  # the cells, in g/g_touch, may go beyond
-    found = (known.bounds.at(model.name, name, *points) for name in known.terms)
-    arc, load = (np.asarray(np.where(holds, np.expm1(each), np.inf)) for each in found)
-    return arc, load
+        known = candidates(law=SLIP if model.law == COUPLED else model.law)
+    if not type(g) is type(alpha) is float and np.ndim(g) == np.ndim(alpha) == 0:
+        g, alpha = float(g), float(alpha)
+    return known.errors_at(model.name, g, alpha)
 
 
 def contact_std(model: ForceModel, g: Any, alpha: Any) -> tuple[Any, Any] | None:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from surrogate.basics.checks import FloatOrArray, common_shape
 from surrogate.basics.elementwise import quotient
 from surrogate.choosing.accuracy import DEFAULT_RTOL
-from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.candidates import FREE, Candidates, candidates
 from surrogate.choosing.choice import (
     Chosen,
@@ -26,7 +25,7 @@ from surrogate.contact.domain import require_inside
 
 WORTH = 0.6  # share of points that need both terms from which both are evaluated at once
 
-__all__ = ["AutomaticTerms", "automatic_contact", "named", "one_name"]
+__all__ = ["AutomaticTerms", "automatic_contact", "named", "terms_of_one"]
 
 
 class AutomaticTerms:
@@ -75,8 +74,20 @@ class AutomaticTerms:
     ) -> tuple[Any, ...]:
         scene = mu, gamma, radius, xi, wear, alpha
         g = quotient(gamma, mu, radius)
+        cleavage = 0.0 * gamma if self.of_dissipation else gamma
+        if type(g) is type(cleavage) is type(xi) is type(wear) is type(alpha) is float:
+            terms = terms_of_one(self.known, g, scene, cleavage, self.rtol)
+            if terms is not None:
+                friction, worn, number, bound, short = terms
+                self.short = self.short or short
+                return friction, worn, True, number, bound
+        return self._of_points(g, scene, cleavage)
+
+    def _of_points(self, g: Any, scene: tuple[Any, ...], cleavage: Any) -> tuple[Any, ...]:
+        """Return the same of points some of which may be outside the domain."""
+        alpha = scene[5]
         rubbed, worn = FORCE_MODELS[FREE].terms(*scene)
-        parts = 0.0 * gamma if self.of_dissipation else gamma, worn, rubbed
+        parts = cleavage, worn, rubbed
         holds = self.known.limits.all_hold(g, alpha)
         cell = self.known.bounds.cell(g, alpha)
         if holds is not True:
@@ -107,16 +118,9 @@ class AutomaticTerms:
     def _number(
         self, g: float, cell: int, parts: tuple[float, ...], scene: tuple[float, ...]
     ) -> Any:
-        mu, gamma, radius, xi, wear, alpha = scene
-        code, bound, arc, load, short = choose_number(self.known, cell, parts, self.rtol)
-        _, worn, rubbed = parts
+        friction, worn, code, bound, short = _of_cell(self.known, g, cell, parts, scene, self.rtol)
         self.short = self.short or short
-        if code > 0:
-            model: Any = self.known.models[code]
-            strengths = xi if load else 0.0, wear if arc else 0.0
-            terms = model.terms_at(g, mu, gamma, radius, *strengths, alpha)
-            rubbed, worn = terms[0] if load else rubbed, terms[1] if arc else worn
-        return rubbed, worn, code, bound
+        return friction, worn, code, bound
 
     def _block(self, g: Any, cell: Any, parts: tuple[Any, ...], scene: tuple[Any, ...]) -> Any:
         chosen = chosen_terms(self.known, cell, parts, self.rtol)
@@ -154,6 +158,56 @@ class AutomaticTerms:
     def names(self, number: Any) -> Any:
         """Return the names of the models of these numbers."""
         return named(self.known.names, number)
+
+
+def terms_of_one(
+    known: Candidates, g: float, scene: tuple[float, ...], cleavage: float, rtol: float
+) -> tuple[float, float, int, float, bool] | None:
+    """Return friction and wear of one scene by the cheapest model that is exact enough.
+
+    Parameters
+    ----------
+    known : Candidates
+        The models.
+    g : float
+        Gamma_o/(mu R_w) [-].
+    scene : tuple of float
+        The six quantities.
+    cleavage : float
+        What the error is relative to, beside friction and wear [N/m].
+    rtol : float
+        Relative error that will do [-].
+
+    Returns
+    -------
+    tuple or None
+        Friction, wear, the number of the model, the bound, and whether that is not met; None
+        outside the domain.
+    """
+    if known.limits.all_hold(g, scene[5]) is not True:
+        return None
+    rubbed, worn = FORCE_MODELS[FREE].terms(*scene)
+    cell = known.bounds.cell(g, scene[5])
+    return _of_cell(known, g, cell, (cleavage, worn, rubbed), scene, rtol)
+
+
+def _of_cell(
+    known: Candidates,
+    g: float,
+    cell: int,
+    parts: tuple[float, ...],
+    scene: tuple[float, ...],
+    rtol: float,
+) -> tuple[float, float, int, float, bool]:
+    mu, gamma, radius, xi, wear, alpha = scene
+    code, bound, arc, load, short = choose_number(known, cell, parts, rtol)
+    _, worn, rubbed = parts
+    if code > 0:
+        model: Any = known.models[code]
+        strengths = xi if load else 0.0, wear if arc else 0.0
+        terms = model.terms_at(g, mu, gamma, radius, *strengths, alpha)
+        rubbed, worn = terms[0] if load else rubbed, terms[1] if arc else worn
+    return rubbed, worn, code, bound, short
 
 
 def _evaluated(
@@ -237,19 +291,3 @@ def named(names: Sequence[str], number: Any) -> Any:
     if number.size and number.min() == number.max():
         return np.broadcast_to(known[number.flat[0]], number.shape)
     return known[number]
-
-
-def one_name(names: str | NDArray[np.str_]) -> str:
-    """Return the name that all points share, or else "auto".
-
-    Examples
-    --------
-    >>> one_name(np.array(["gp", "gp"])), one_name(np.array(["gp", "table"]))
-    ('gp', 'auto')
-    """
-    if isinstance(names, str):
-        return names
-    if names.size and not any(names.strides):  # a view of one name
-        return str(names.flat[0])
-    first = names.flat[0] if names.size else AUTO
-    return AUTO if np.any(names != first) else str(first)

@@ -9,26 +9,29 @@ effective numbers there.
 
 from __future__ import annotations
 
-from functools import cache
-from typing import Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
-from surrogate.basics.elementwise import exp, quotient, ratio, taken, where
+from surrogate.basics.elementwise import exp, expm1, larger, quotient, ratio, taken, where
 from surrogate.choosing.accuracy import DEFAULT_RTOL
-from surrogate.choosing.auto import AutomaticTerms, named
-from surrogate.choosing.candidates import OUTSIDE, candidates
+from surrogate.choosing.auto import AutomaticTerms, named, terms_of_one
+from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
 from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
-from surrogate.contact.shipped import Fitted, shipped
+from surrogate.contact.shipped import Fitted, location, shipped
 from surrogate.coupling.amplification import Amplification, Place
 from surrogate.coupling.shipped import amplification_if_any
 from surrogate.errors import AccuracyError
 
-__all__ = ["LawfulTerms", "amplification_of_models"]
+if TYPE_CHECKING:
+    from surrogate.choosing.common_choice import CommonTerms
+
+__all__ = ["LawfulTerms", "amplification_of_models", "common_terms"]
 
 _CODES = (PROJECTED, SLIP, COUPLED)
 _FIT_PART = 0.6
@@ -37,14 +40,29 @@ _FIT_PART = 0.6
 Terms = tuple[Any, ...]
 
 
+class _InUse(NamedTuple):
+    """What the law is chosen among: kappa, where all models have what it needs, and the models."""
+
+    kappa: Amplification | None
+    names: list[str]
+    of_law: dict[str, Candidates]
+
+
+@lru_cache(16)
+def _at(named: str | None, folder: str) -> _InUse:
+    """Return what there is at a `location`, for which one look-up has to do."""
+    fitted = shipped()
+    kappa = amplification_if_any() if _all_slip(fitted) else None
+    laws = (PROJECTED, SLIP) if kappa else (PROJECTED,)
+    of_law = {law: candidates(fitted, law) for law in laws}
+    return _InUse(kappa, of_law[PROJECTED].names, of_law)
+
+
 def amplification_of_models(named: FittedModel | None = None) -> Amplification | None:
     """Return kappa of the models in use; None where they, or the named one, lack what it needs."""
-    if not _all_slip(shipped()) or not (named is None or _slips(named)):
-        return None
-    return amplification_if_any()
+    return _at(*location()).kappa if named is None or _slips(named) else None
 
 
-@cache
 def _all_slip(fitted: Fitted) -> bool:
     """Return whether all models of a file have the slip law, with measured errors."""
     return fitted.slip_bounds is not None and all(map(_slips, fitted.models.values()))
@@ -53,6 +71,31 @@ def _all_slip(fitted: Fitted) -> bool:
 def _slips(model: FittedModel) -> bool:
     """Return whether a model has the functions of the slip law."""
     return {*TERMS_OF_LAW[SLIP]} <= {*model.functions}
+
+
+def common_terms(values: tuple[FloatOrArray, ...], rtol: float | None) -> CommonTerms | None:
+    """Return the law and model of many scenes, if `LawfulTerms` chooses the same at all of them.
+
+    None where only a look at each of them tells, or an error that was asked for has to be met.
+
+    Examples
+    --------
+    >>> radii = np.linspace(2e-4, 3e-4, 20_000)
+    >>> terms = common_terms((685.0, 1.6, radii, 0.1, 7750.0, 2.5), None)
+    >>> str(terms.model)
+    'table'
+    """
+    if rtol is not None:
+        return None
+    from surrogate.choosing import common_choice as common  # which one scene need not load
+
+    box = common.box_of(values)
+    if box is None:
+        return None
+    kappa, _, of_law = _at(*location())
+    if kappa is None or common.is_beyond(kappa, box):
+        return common.common_model(of_law[PROJECTED], box, DEFAULT_RTOL)
+    return common.common_slip(kappa, of_law[SLIP], box, DEFAULT_RTOL, _FIT_PART)
 
 
 class LawfulTerms:
@@ -89,20 +132,21 @@ class LawfulTerms:
     ) -> None:
         self.values, self.of_dissipation, self.named = values, of_dissipation, named
         self.rtol, self.promised = DEFAULT_RTOL if rtol is None else rtol, rtol is not None
-        self.kappa = amplification_of_models(named)
-        self.names_of_models = candidates().names if named is None else [named.name]
+        self.known = _at(*location())
+        self.kappa = self.known.kappa if named is None or _slips(named) else None
+        self.names_of_models = self.known.names if named is None else [named.name]
         self.surrounded = True
         self._worst: tuple[float, float, float] | None = None
 
     def __call__(self, *scene: Any) -> Terms:
         mu, gamma, radius, _, wear, alpha = scene
         g, relative = quotient(gamma, mu, radius), ratio(wear, mu)
-        found = self._of_place(scene, g, relative)
-        if found[2] is not True:
-            self.surrounded = self.surrounded and bool(np.all(found[2]))
+        terms = self._of_place(scene, g, relative)
+        if terms[2] is not True:
+            self.surrounded = self.surrounded and bool(np.all(terms[2]))
         if self.promised and self._worst is None:
-            self._look(found[5] + found[6], g, alpha)
-        return found
+            self._look(terms[5] + terms[6], g, alpha)
+        return terms
 
     def _of_place(self, scene: tuple[Any, ...], g: Any, relative: Any) -> Terms:
         if self.kappa is None:
@@ -110,11 +154,8 @@ class LawfulTerms:
         place = self.kappa.place(g, scene[5], scene[3], relative)
         if place.known is False:
             return self._projected(scene)
-        if np.ndim(place.known) == 0:
-            if not place.known:
-                return self._projected(scene)
-            if all(type(value) is float for value in scene):
-                return self._of_one(scene, place)
+        if {*map(type, scene)} == {float}:
+            return self._of_one(scene, place)
         return self._of_many(scene, place)
 
     def _of_one(self, scene: tuple[float, ...], place: Place) -> Terms:
@@ -185,19 +226,16 @@ class LawfulTerms:
         assert self.kappa is not None
         friction, worn, holds, number, fit = self._terms(scene, SLIP, model)
         drag, rest = friction + worn, self._rest(scene)
-        with np.errstate(all="ignore"):
-            swing = np.expm1(self.kappa.most_at(place))  # kappa as small, and as large, as may be
-            error = np.maximum(
-                drag * swing / (rest * (1.0 + swing) + drag),
-                drag * swing / (rest + drag * (1.0 + swing)),
-            )
-        unloaded = np.equal(drag, 0.0)
-        error = np.where(unloaded, 0.0, error)
-        closed = unloaded if model else np.equal(number, 0)  # Eq. (13) is of the projected law
-        law = np.where(closed, 0, 1)
-        if np.ndim(error) == 0:
-            return friction, worn, holds, number, int(law), fit, float(error)
-        return friction, worn, holds, number, law, fit, error
+        swing = expm1(self.kappa.most_at(place))  # kappa as small, and as large, as may be
+        unloaded = drag == 0.0
+        other = where(unloaded, 1.0, drag)
+        error = larger(
+            other * swing / (rest * (1.0 + swing) + other),
+            other * swing / (rest + other * (1.0 + swing)),
+        )
+        closed = unloaded if model else number == 0  # Eq. (13) is of the projected law
+        law = np.where(closed, 0, 1) if isinstance(closed, np.ndarray) else int(not closed)
+        return friction, worn, holds, number, law, fit, where(unloaded, 0.0, error)
 
     def _better(self, scene: tuple[Any, ...], first: Terms, factors: tuple[Any, Any]) -> Terms:
         """Return the terms times kappa where their error then will do or is the smaller one."""
@@ -205,40 +243,41 @@ class LawfulTerms:
         kappa, unsure = factors
         drag = (friction + worn) * kappa
         # the slip terms may be a larger share of the amplified force than they were of their own
-        error = fit * np.maximum(1.0, kappa) + drag / (self._rest(scene) + drag) * unsure
-        better = (error <= self.rtol) | np.logical_not(fit + of_law <= error)
+        error = fit * larger(1.0, kappa) + drag / (self._rest(scene) + drag) * unsure
+        better = (error <= self.rtol) | ((fit + of_law <= error) ^ True)
         terms = friction * kappa, worn * kappa, holds, number, 2, error, 0.0
-        if np.ndim(better) == 0:
-            return (*terms[:5], float(error), 0.0) if better else first
+        if type(better) is bool:
+            return terms if better else first
         return tuple(np.where(better, a, b) for a, b in zip(terms, first, strict=True))
 
     def _factor(self, place: Place) -> tuple[Any, Any]:
         """Return kappa, and the bound of its relative error."""
         assert self.kappa is not None
-        kappa, unsure = exp(self.kappa.log_at(place)), np.expm1(self.kappa.error_at(place))
-        if type(kappa) is float:
-            return kappa, float(unsure)
-        return kappa, np.broadcast_to(unsure, np.shape(kappa))
+        kappa, unsure = exp(self.kappa.log_at(place)), expm1(self.kappa.error_at(place))
+        return kappa, unsure if type(kappa) is float else np.broadcast_to(unsure, np.shape(kappa))
 
     def _projected(self, scene: tuple[Any, ...]) -> Terms:
         """Return the terms of the projected law, whose error nobody knows where anything rubs."""
         friction, worn, holds, number, fit = self._terms(scene, PROJECTED, self.named)
-        unknown = where(np.equal(friction + worn, 0.0), 0.0, np.nan)
+        unknown = where(friction + worn == 0.0, 0.0, np.nan)
         return friction, worn, holds, number, 0, fit, unknown
 
     def _terms(self, scene: tuple[Any, ...], law: str, model: FittedModel | None) -> Terms:
         """Return friction, wear, where in the domain, number of the model and bound under a law."""
         if model is None:
-            rtol = _FIT_PART * self.rtol if law == SLIP else None
-            terms = AutomaticTerms(scene, rtol, self.of_dissipation, candidates(law=law))
-            return terms(*scene)
+            rtol = _FIT_PART * self.rtol if law == SLIP else DEFAULT_RTOL
+            known = self.known.of_law[law]
+            if {*map(type, scene)} == {float}:
+                g, rest = quotient(scene[1], scene[0], scene[2]), self._rest(scene)
+                if (one := terms_of_one(known, g, scene, rest, rtol)) is not None:
+                    return one[0], one[1], True, one[2], one[3]
+            return AutomaticTerms(scene, rtol, self.of_dissipation, known)(*scene)
         model = model.under(law)
         friction, worn, holds = model.evaluated(*scene)
         drag, parts = friction + worn, (self._rest(scene), friction, worn)
-        with np.errstate(all="ignore"):
-            fit = np.where(np.equal(drag, 0.0), 0.0, force_bound(model, scene, parts))
-        number = self.names_of_models.index(model.name)
-        return friction, worn, holds, number, fit if fit.ndim else float(fit)
+        known = self.known.of_law[law]
+        fit = where(drag == 0.0, 0.0, force_bound(model, scene, parts, known))
+        return friction, worn, holds, self.names_of_models.index(model.name), fit
 
     def _rest(self, scene: tuple[Any, ...]) -> Any:
         return 0.0 if self.of_dissipation else scene[1]
@@ -262,7 +301,7 @@ class LawfulTerms:
             If rtol was given and is not met.
         """
         if not (self.surrounded or extrapolate):
-            require_inside(self.named or candidates().models[1], self.values)
+            require_inside(self.named or self.known.of_law[PROJECTED].models[1], self.values)
         if self._worst is None:
             return
         error, g, alpha = self._worst

@@ -82,7 +82,7 @@ def _scenes(kappa: Amplification) -> tuple[Any, ...]:
     """Return the scenes of the largest loads that are known, for mu = R_w = 1."""
     x, y, direction = (each.ravel() for each in np.meshgrid(*kappa.axes, indexing="ij"))
     size = _WITHIN * kappa.reach_at(x, y, direction)
-    xi, wear = (size * each for each in edge_of(direction, kappa.largest))
+    xi, wear = (size * each for each in edge_of(direction, kappa.load_unit))
     table = force_model(OUTSIDE)
     alpha = np.clip(np.exp(y), table.stiffening.lower, table.stiffening.upper)
     touch = table.touch(alpha)

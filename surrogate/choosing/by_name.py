@@ -6,12 +6,15 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from surrogate.basics.checks import shown
 from surrogate.contact.base import ForceModel
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.errors import UnknownModelError
 
-__all__ = ["AUTO", "FITTED_NAMES", "force_model", "is_auto"]
+__all__ = ["AUTO", "FITTED_NAMES", "force_model", "is_auto", "one_name"]
 
 AUTO = "auto"
 """The model that stands for the cheapest one that is exact enough."""
@@ -60,3 +63,19 @@ def force_model(name: object, argument: str = "model") -> ForceModel:
         f"{argument} must be the name of a model or a ForceModel of one's own, but {argument} = "
         f"{shown(name)}; choose one of {names}."
     )
+
+
+def one_name(names: str | NDArray[np.str_]) -> str:
+    """Return the name that all points share, or else "auto".
+
+    Examples
+    --------
+    >>> one_name(np.array(["gp", "gp"])), one_name(np.array(["gp", "table"]))
+    ('gp', 'auto')
+    """
+    if isinstance(names, str):
+        return names
+    if names.size and not any(names.strides):  # a view of one name
+        return str(names.flat[0])
+    first = names.flat[0] if names.size else AUTO
+    return AUTO if np.any(names != first) else str(first)

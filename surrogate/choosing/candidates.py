@@ -71,6 +71,17 @@ class Candidates:
             self._tables[key] = np.asarray(function(self.bounds.by_cell(model, name)))
         return self._tables[key]
 
+    def errors_at(self, model: str, g: Any, alpha: Any) -> tuple[Any, Any]:
+        """Return exp(e) - 1 of a model's two terms at points, infinite outside the domain."""
+        cell, holds = self.bounds.cell(g, alpha), self.limits.all_hold(g, alpha)
+        if holds is not True:  # the cells, in g/g_touch, may go beyond
+            cell = np.where(holds, cell, self.bounds.cells)
+        elif type(cell) is int:
+            row, number = self.of_cells[cell], self.names.index(model)
+            return row[6][number - 1] if number else row[4:6]
+        arc, load = (self.error(model, name).take(cell) for name in self.terms)
+        return arc, load
+
     def beyond(self, g: Any, alpha: Any) -> tuple[Any, Any] | None:
         """Return how far the terms may be off above the highest g, as far as solutions told.
 
@@ -89,14 +100,18 @@ class Candidates:
         return arc, load
 
     @cached_property
-    def of_terms(self) -> dict[str, list[tuple[float, ...]]]:
-        """For single points, by term and cell: `least`, `most` and every model's `error`."""
-        rows = {}
-        for name in self.terms:
-            errors = (self.error(model, name) for model in self.names)
-            columns = self.least(name), self.most(name), *errors
-            rows[name] = list(zip(*(column.tolist() for column in columns), strict=True))
-        return rows
+    def of_cells(self) -> list[tuple[Any, ...]]:
+        """For single points, by cell: `least`, `most` and `error` of Eq. (13) for the two terms.
+
+        Then the pairs of `error` of the other models.
+        """
+        arc, load = self.terms
+        columns = [kind(name) for name in self.terms for kind in (self.least, self.most)]
+        errors = [(self.error(model, arc), self.error(model, load)) for model in self.names]
+        numbers = np.stack([*columns, *(each for pair in errors for each in pair)], axis=1)
+        return [
+            (*row[:6], tuple(zip(row[6::2], row[7::2], strict=True))) for row in numbers.tolist()
+        ]
 
 
 def _bounds(fitted: Fitted, law: str) -> Bounds:

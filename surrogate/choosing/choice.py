@@ -209,8 +209,7 @@ def choose_number(
     enough.
     """
     cleavage, worn, rubbed = parts
-    least_arc, most_arc, error_arc, *arc_of = known.of_terms[known.terms[0]][cell]
-    least_load, most_load, error_load, *load_of = known.of_terms[known.terms[1]][cell]
+    least_arc, most_arc, least_load, most_load, error_arc, error_load, others = known.of_cells[cell]
     low = cleavage + (worn * least_arc if worn else 0.0)
     low = max(low + (rubbed * least_load if rubbed else 0.0), SMALLEST)
     worst_arc = worn * error_arc / low if worn else 0.0
@@ -218,15 +217,17 @@ def choose_number(
     together = worst_arc + worst_load
     if together <= rtol:
         return 0, together, False, False, False
-    needs_arc = together > rtol and worst_arc > NEGLIGIBLE * rtol
-    needs_load = together > rtol and worst_load > NEGLIGIBLE * rtol
+    enough = NEGLIGIBLE * rtol
+    needs_arc = together > rtol and worst_arc > enough
+    needs_load = together > rtol and worst_load > enough
     left = (0.0 if needs_arc else worst_arc) + (0.0 if needs_load else worst_load)
     share_arc = min(worn * most_arc / low, 1.0) if worn else 0.0
     share_load = min(rubbed * most_load / low, 1.0) if rubbed else 0.0
     best, least = 0, together
-    for number, (arc, load) in enumerate(zip(arc_of, load_of), start=1):  # noqa: B905
+    for number, (arc, load) in enumerate(others, start=1):
         arc, load = arc if needs_arc else 0.0, load if needs_load else 0.0
-        bound = min(share_arc * arc + share_load * load, max(arc, load)) + left
+        bound, largest = share_arc * arc + share_load * load, arc if arc > load else load
+        bound = (largest if largest < bound else bound) + left
         if bound <= rtol:
             return number, bound, needs_arc, needs_load, False
         if bound < least:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -32,15 +33,21 @@ near: the law is 'projected', Eq. (S2) of the paper, and tau_w and xi are effect
     """
     if unknown is False:
         return None
-    one = unknown is True
-    count, size = (1, 1) if one else (int(np.count_nonzero(unknown)), int(np.size(unknown)))
+    if unknown is True:
+        return _sentence(whose)
+    count, size = int(np.count_nonzero(unknown)), int(np.size(unknown))
     if not count:
         return None
-    where = f"at {count} of {size} points " if count < size else ""
+    if count == size:
+        return _sentence(whose)
+    return f"at {count} of {size} points {_sentence(whose)} there"
+
+
+@lru_cache(16)
+def _sentence(whose: str) -> str:
     return (
-        f"{where}the error of {whose} is unknown, as no solution with friction and wear is near: "
+        f"the error of {whose} is unknown, as no solution with friction and wear is near: "
         "the law is 'projected', Eq. (S2) of the paper, and tau_w and xi are effective strengths"
-        f"{' there' if where else ''}"
     )
 
 

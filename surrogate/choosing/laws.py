@@ -9,18 +9,23 @@ stress act on the body: kappa times the slip law.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from surrogate.basics.checks import one_number, shown
-from surrogate.basics.elementwise import quotient, ratio
+from surrogate.basics.elementwise import quotient, ratio, where
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import DomainError, InputError
 from surrogate.scene import LAWS
+
+if TYPE_CHECKING:
+    from surrogate.choosing.candidates import Candidates
 
 __all__ = [
     "COUPLED",
@@ -71,6 +76,9 @@ class AnyLaw:
 
     def __str__(self) -> str:
         return f"{self.name}, law {self.law}"
+
+
+_ANY = AnyLaw()
 
 
 def is_chosen(model: object) -> bool:
@@ -140,7 +148,7 @@ def of_law(
     if law == PROJECTED or (law == AUTO and isinstance(model, AnyLaw)):
         return model
     if law == AUTO and is_auto(model):
-        return AnyLaw()
+        return _ANY
     chosen = force_model(_BEST if is_auto(model) else model)
     if law == AUTO:
         if isinstance(chosen, FittedModel) and chosen.law == PROJECTED:
@@ -170,10 +178,17 @@ def _notched(slip: FittedModel, notch_radius: object) -> FittedModel:
 
 def coupled(slip: FittedModel) -> FittedModel:
     """Return a model of the slip law under the law "coupled"."""
+    model, kappa_in_use = _coupling()
+    return model(slip, kappa_in_use())  # type: ignore[no-any-return]
+
+
+@cache
+def _coupling() -> tuple[Callable[..., Any], Callable[[], Any]]:
+    """Return what makes a coupled model, and kappa: loaded where somebody asks for that law."""
     from surrogate.coupling.model import CoupledModel
     from surrogate.coupling.shipped import amplification
 
-    return CoupledModel(slip, amplification())
+    return lru_cache(16)(CoupledModel), amplification
 
 
 def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
@@ -202,7 +217,12 @@ def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
     )
 
 
-def force_bound(model: FittedModel, scene: tuple[Any, ...], parts: tuple[Any, Any, Any]) -> Any:
+def force_bound(
+    model: FittedModel,
+    scene: tuple[Any, ...],
+    parts: tuple[Any, Any, Any],
+    known: Candidates | None = None,
+) -> Any:
     """Return the bound of the relative error of a force beside finite elements of its law.
 
     Parameters
@@ -213,6 +233,8 @@ def force_bound(model: FittedModel, scene: tuple[Any, ...], parts: tuple[Any, An
         Its six quantities.
     parts : tuple
         Cleavage, friction and wear [N/m].
+    known : Candidates, optional
+        The models of its law; by default those in use.
 
     Returns
     -------
@@ -225,15 +247,14 @@ def force_bound(model: FittedModel, scene: tuple[Any, ...], parts: tuple[Any, An
     with np.errstate(all="ignore"):
         g, relative = quotient(gamma, mu, radius), ratio(tau, mu)
         own = _own_error(model, g, alpha, xi, relative)
-        bounds = contact_bounds(model, g, alpha)
+        bounds = contact_bounds(model, g, alpha, known)
         assert bounds is not None  # of a fitted model
         bounds = model.bounds_of(scene, bounds)
-        off = np.where(friction == 0.0, 0.0, friction * (bounds[1] + own))
-        off = off + np.where(wear == 0.0, 0.0, wear * (bounds[0] + own))
-        known = np.isfinite(off)
-        rubs = np.not_equal(friction, 0.0) | np.not_equal(wear, 0.0)
-        bound = np.where(known | ~rubs, off / (cleavage + friction + wear), np.nan)
-    return bound.item() if bound.ndim == 0 else bound
+        off = where(friction == 0.0, 0.0, friction * (bounds[1] + own))
+        off = off + where(wear == 0.0, 0.0, wear * (bounds[0] + own))
+        smooth = (friction == 0.0) & (wear == 0.0)
+        share = ratio(off, cleavage + friction + wear)
+        return where((off < np.inf) | smooth, share, np.nan)
 
 
 def _own_error(model: Any, g: Any, alpha: Any, xi: Any, relative: Any) -> Any:

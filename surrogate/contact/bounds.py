@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from surrogate.basics.elementwise import exp, log
 from surrogate.contact.coordinates import log_touch
 
-__all__ = ["Bounds"]
+__all__ = ["Bounds", "interval"]
 
 Array = NDArray[np.float64]
 
@@ -122,12 +122,25 @@ def _place(edges: Sequence[float], value: Any) -> tuple[Any, Any]:
 
     The latter is True, no array, where all of them are.
     """
-    first, *inner, last = edges
+    first, last, place = edges[0], edges[-1], interval(edges, value)
     if type(value) is float:
-        return bisect_right(inner, value), first <= value <= last
-    place = np.zeros(value.shape, np.uint8)  # of few bytes, for speed
-    for edge in inner:
-        place += (value >= edge).view(np.uint8)
+        return place, first <= value <= last
     if not value.size or (value.min() >= first and value.max() <= last):
         return place, True
     return place, (value >= first) & (value <= last)
+
+
+def interval(edges: Sequence[float], value: Any) -> Any:
+    """Return the number of the interval that values are in, the first or last one if in none.
+
+    Examples
+    --------
+    >>> interval((0.0, 1.0, 2.0), 1.0), interval((0.0, 1.0, 2.0), np.array([-1.0, 5.0])).tolist()
+    (1, [0, 1])
+    """
+    if type(value) is float:
+        return bisect_right(edges, value, 1, len(edges) - 1) - 1
+    place = np.zeros(np.shape(value), np.uint8)  # of few bytes, for speed
+    for edge in edges[1:-1]:
+        place += np.greater_equal(value, edge).view(np.uint8)
+    return place

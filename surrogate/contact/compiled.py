@@ -12,7 +12,7 @@ from numba import njit
 
 __all__ = ["along_line", "at_points"]
 
-_SOME = 512
+_SOME = 256
 """Points at a time, so that what one loop leaves for the next stays in the nearest cache."""
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -143,7 +144,7 @@ class FittedModel(ForceModel):
 
     def under(self, law: str) -> Self:
         """Return the model under another law of dissipation."""
-        return self if law == self.law else replace(self, law=law)  # type: ignore[type-var]
+        return self if law == self.law else _under(self, law)
 
     @property
     def rubbing(self) -> tuple[str, str]:  # type: ignore[override]
@@ -304,24 +305,26 @@ class FittedModel(ForceModel):
         self, g: Any, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any
     ) -> tuple[Any, Any]:
         """Return friction and wear at a known g; what has no strength is not evaluated."""
-        names = self.rubbing[:1] * _some(wear) + self.rubbing[1:] * _some(xi)
-        if not names:
+        arc_name, load_name = self.rubbing
+        wears, rubs = _some(wear), _some(xi)
+        if not (wears or rubs):
             return 0.0, 0.0
         beyond = self.limits.beyond(g, alpha)
-        values = dict(zip(names, self.contact(names, g, alpha))) if beyond is False else {}  # noqa: B905
-        friction = worn = 0.0
-        if self.rubbing[1] in names:
-            load = values.get(self.rubbing[1])
-            if load is None:
-                load = self.normal_load(where(beyond, self.limits.highest_g(alpha), g), alpha)
+        friction = worn = arc = load = 0.0
+        if beyond is False:
+            values = self.contact((arc_name,) * wears + (load_name,) * rubs, g, alpha)
+            arc, load = values[0], values[-1]
+        else:
+            arc = self.arc(g, alpha) if wears else 0.0
+            at = where(beyond, self.limits.highest_g(alpha), g)
+            load = self.normal_load(at, alpha) if rubs else 0.0
+        if rubs:
             friction = 2.0 * product(radius, xi, mu) * load
             if beyond is not False:
                 far = self._friction_beyond(load, mu, gamma, radius, xi, alpha)
                 friction = where(beyond, far, friction)
             friction = _where_not_zero(xi, friction)
-        if self.rubbing[0] in names:
-            arc = values.get(self.rubbing[0])
-            arc = self.arc(g, alpha) if arc is None else arc
+        if wears:
             worn = 2.0 * product(wear, radius, _where_not_zero(wear, arc))
         return friction, worn
 
@@ -343,6 +346,11 @@ class FittedModel(ForceModel):
     def bounds_of(self, scene: tuple[Any, ...], measured: tuple[Any, Any]) -> tuple[Any, Any]:
         """Return bounds of the relative errors of A and B: the measured ones, or better ones."""
         return measured
+
+
+@lru_cache(16)
+def _under(model: Any, law: str) -> Any:
+    return replace(model, law=law)
 
 
 def _all(condition: Any) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,9 +19,12 @@ from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import FittedModel
 from surrogate.contact.formula import BlendModel
 from surrogate.contact.grid import Grid
-from surrogate.contact.process import GaussianProcess, ProcessModel
+from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.table import CellTable, TableModel
 from surrogate.errors import InputError
+
+if TYPE_CHECKING:
+    from surrogate.contact.process import GaussianProcess
 
 __all__ = [
     "FILE",
@@ -32,6 +35,7 @@ __all__ = [
     "fitted_from",
     "folder_in_use",
     "in_use",
+    "location",
     "read",
     "read_fitted",
     "shipped",
@@ -151,7 +155,7 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
         )
         fitted = Fitted(
             limits,
-            {name: _process(name, limits, about["prior"][name], arrays) for name in names},
+            _Processes(names, limits, about["prior"], arrays),
             CellTable(grid, {name: _nodes(name, grid, arrays) for name in names}),
             {name: _floats(values) for name, values in about["constants"].items()},
             float(about["touch_error"]),
@@ -206,15 +210,47 @@ def _growth(told: Any) -> Mapping[str, Any]:
     return told if isinstance(told, Mapping) else {"normal_load": told}
 
 
+class _Processes(Mapping[str, "GaussianProcess"]):
+    """The processes of a file, made when they are asked for, as the table needs none of them."""
+
+    def __init__(
+        self, names: tuple[str, ...], limits: Domain, priors: Any, arrays: Mapping[str, Any]
+    ) -> None:
+        self._names, self._limits, self._priors = names, limits, priors
+        self._arrays, self._made = arrays, dict[str, Any]()
+        for name in names:
+            _require_process(name, priors[name], arrays)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __getitem__(self, name: str) -> GaussianProcess:
+        if name not in self._made:
+            self._made[name] = _process(name, self._limits, self._priors[name], self._arrays)
+        return self._made[name]  # type: ignore[no-any-return]
+
+
+def _require_process(name: str, prior: Mapping[str, Any], arrays: Mapping[str, Any]) -> None:
+    points, *others = (arrays[f"{name}.{part}"] for part in ("points", "values", "noise"))
+    known = len(points), *map(len, others)
+    if len(set(known)) != 1 or np.max(arrays[f"{name}.active"], initial=0) >= known[0]:
+        raise ValueError(f"the process of {name} has arrays of {known} points")
+    numbers = float(prior["mean"]), float(prior["variance"]), float(prior["calibration"])
+    if points.shape[1] != 2 or not np.all(np.isfinite(numbers)):
+        raise ValueError(f"the process of {name} has other points or numbers than one has")
+    if not (np.all(others[1] > 0.0) and np.all(np.array(prior["lengths"]) > 0.0)):
+        raise ValueError(f"the process of {name} has a noise or a length that is not positive")
+
+
 def _process(
     name: str, limits: Domain, prior: Mapping[str, Any], arrays: Mapping[str, Any]
 ) -> GaussianProcess:
+    from surrogate.contact.process import GaussianProcess
+
     points = arrays[f"{name}.points"]
-    known = len(points), len(arrays[f"{name}.values"]), len(arrays[f"{name}.noise"])
-    if len(set(known)) != 1 or np.max(arrays[f"{name}.active"], initial=0) >= known[0]:
-        raise ValueError(f"the process of {name} has arrays of {known} points")
-    if not (np.all(arrays[f"{name}.noise"] > 0.0) and np.all(np.array(prior["lengths"]) > 0.0)):
-        raise ValueError(f"the process of {name} has a noise or a length that is not positive")
     return GaussianProcess(
         inputs=coordinates(
             points[:, 0], points[:, 1], limits.log_touch(points[:, 1]), STEPS.get(name, 0.0)
@@ -266,14 +302,19 @@ def shipped() -> Fitted:
     InputError
         If there are none, or their file is damaged.
     """
-    named = _in_use or os.environ.get(VARIABLE)
-    return read(_file_at(named)) if named else _in(models_folder())
+    named, folder = location()
+    return read(_file_at(named)) if named else _in(folder)
 
 
 def folder_in_use() -> str:
     """Return the folder of the file that `shipped` reads."""
-    named = _in_use or os.environ.get(VARIABLE)
-    return os.path.dirname(_file_at(named)) if named else models_folder()
+    named, folder = location()
+    return os.path.dirname(_file_at(named)) if named else folder
+
+
+def location() -> tuple[str | None, str]:
+    """Return the path that was named for the models, None if none was, and the shipped folder."""
+    return _in_use or os.environ.get(VARIABLE), models_folder()
 
 
 _in_use: str | None = None

@@ -13,14 +13,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.elementwise import where
-from surrogate.contact.coordinates import POWER, vertex
+from surrogate.contact.coordinates import POWER, log_touch, vertex
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import PROJECTED, FittedModel
 from surrogate.contact.grid import Grid, Place
@@ -32,6 +32,19 @@ Array = NDArray[np.float64]
 _BERNSTEIN = np.array([[1, 0, 0, 0], [1, 1 / 3, 0, 0], [1, 2 / 3, 1 / 3, 0], [1, 1, 1, 1]])
 """Bernstein coefficients of a cubic from its powers."""
 _KEPT = 24  # collapsed tables, some kilobytes each
+
+
+class NumberLine(NamedTuple):
+    """Where numbers are along g at one alpha, and the cubics of functions that were asked for."""
+
+    touch: float
+    before: float
+    past: float
+    short: int
+    rows: int
+    along_alpha: int
+    in_alpha: float
+    cubics: dict[tuple[str, int], tuple[float, ...]]
 
 
 class Slopes(NamedTuple):
@@ -65,6 +78,7 @@ class CellTable:
     _rows: dict[str, dict[int, tuple[float, ...]]] = field(
         default_factory=dict, init=False, repr=False
     )
+    _lines: dict[float, NumberLine] = field(default_factory=dict, init=False, repr=False)
     _collapsed: dict[tuple[str, int, float], Array] = field(
         default_factory=dict, init=False, repr=False
     )
@@ -151,47 +165,48 @@ class CellTable:
             rows[cell] = _polynomial(four)
         return rows[cell]
 
-    @cached_property
-    def _numbers(self) -> tuple[Any, ...]:
-        """What `_number` needs of the grid."""
-        grid = self.grid
-        low, high = grid.log_alpha
-        return (
-            *(grid.touch[-1], grid.touch[-2::-1], grid.log_g, grid.short, grid.past / grid.beyond),
-            *(grid.cells, low, grid.stiffening / (high - low), grid.stiffening),
-        )
-
     def _number(
         self, names: Sequence[str], log_g: float, log_alpha: float
     ) -> tuple[float, list[float]]:
-        """Do the same as `Grid.place` and `_scattered` for one point, in one piece for speed."""
-        last, others, low_g, short, past, rows, low_alpha, per_alpha, columns = self._numbers
-        touch = last + 0.0 * log_alpha
-        for coefficient in others:
-            touch = touch * log_alpha + coefficient
+        """Do the same as `Grid.place` and `_along` for one point, in one piece for speed."""
+        line = self._lines.get(log_alpha) or self._line(log_alpha)
+        touch, before, past, short, rows, _, _, cubics_of = line
         x = log_g - touch
-        t = (short / (touch - low_g) if x < 0.0 else past) * x + short
-        s = (log_alpha - low_alpha) * per_alpha
-        row, column = int(t), int(s)
+        t = (before if x < 0.0 else past) * x + short
+        row = int(t)
         if not 0 <= row < rows:
             row = 0 if row < 0 else rows - 1
-        if not 0 <= column < columns:
-            column = 0 if column < 0 else columns - 1
         t -= row
-        s -= column
-        cell = row * columns + column
-        found, rows_of = [], self._rows
+        values = []
         for name in names:
-            kept = rows_of[name].get(cell) if name in rows_of else None
-            a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = kept or self._row(
-                name, cell
-            )
-            a += s * (a1 + s * (a2 + s * a3))
-            b += s * (b1 + s * (b2 + s * b3))
-            c += s * (c1 + s * (c2 + s * c3))
-            d += s * (d1 + s * (d2 + s * d3))
-            found.append(a + t * (b + t * (c + t * d)))
-        return x, found
+            a, b, c, d = cubics_of.get((name, row)) or self._cubic(line, name, row)
+            values.append(a + t * (b + t * (c + t * d)))
+        return x, values
+
+    def _line(self, log_alpha: float) -> NumberLine:
+        """Return what numbers need of the grid at one alpha; the latest are kept."""
+        grid, (low, high) = self.grid, self.grid.log_alpha
+        touch = log_touch(grid.touch, log_alpha)
+        s = (log_alpha - low) * (grid.stiffening / (high - low))
+        column = min(max(int(s), 0), grid.stiffening - 1)
+        if len(self._lines) >= _KEPT:
+            self._lines.clear()
+        rates = grid.short / (touch - grid.log_g), grid.past / grid.beyond
+        line = NumberLine(touch, *rates, grid.short, grid.cells, column, s - column, {})
+        self._lines[log_alpha] = line
+        return line
+
+    def _cubic(self, line: NumberLine, name: str, row: int) -> tuple[float, ...]:
+        """Return the cubic along g of a cell at one alpha, which is kept."""
+        s, cell = line.in_alpha, row * self.grid.stiffening + line.along_alpha
+        a, a1, a2, a3, b, b1, b2, b3, c, c1, c2, c3, d, d1, d2, d3 = self._row(name, cell)
+        cubic = line.cubics[name, row] = (
+            a + s * (a1 + s * (a2 + s * a3)),
+            b + s * (b1 + s * (b2 + s * b3)),
+            c + s * (c1 + s * (c2 + s * c3)),
+            d + s * (d1 + s * (d2 + s * d3)),
+        )
+        return cubic
 
     def _compiled(
         self, names: Sequence[str], log_g: Array, log_alpha: Array

@@ -9,7 +9,7 @@ touch the wire, and is known up to a share of 1 of the loads that they reach.
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.elementwise import dense, log, taken, where
+from surrogate.contact.bounds import interval
 from surrogate.contact.coordinates import log_touch, log_touch_slope
 from surrogate.coupling.polynomial import Polynomial
 
@@ -70,7 +71,7 @@ class Amplification:
         wear alone; where `reach` is known.
     reach : ndarray, shape of the axes
         The size of the largest load of each direction that is known.
-    largest : tuple of float
+    load_unit : tuple of float
         xi and tau_w/mu of a load of size 1 [-].
     edges : tuple of tuple of float
         Of the cells in x and in y.
@@ -89,7 +90,7 @@ class Amplification:
     polynomial: Polynomial
     axes: tuple[Array, Array, Array]
     reach: Array
-    largest: tuple[float, float]
+    load_unit: tuple[float, float]
     edges: tuple[tuple[float, ...], tuple[float, ...]]
     errors: Array
     growth: Array
@@ -110,7 +111,7 @@ class Amplification:
     def factor_and_known(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any]:
         """Return ln kappa, and whether it is known there or without any load."""
         variables, free = self._at(g, alpha, xi, wear)
-        unloaded = np.equal(xi, 0.0) & np.equal(wear, 0.0)
+        unloaded = (xi == 0.0) & (wear == 0.0)
         return self.polynomial(*variables), free | unloaded
 
     def slopes(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[Any, Any, Any, Any]:
@@ -141,28 +142,35 @@ class Amplification:
 
         0 without any load.
         """
-        return self.share_at(*self._place(g, alpha), xi, wear)
+        return self._share(*self._place(g, alpha), xi, wear)
 
     def share_at(self, x: Any, y: Any, xi: Any, wear: Any) -> Any:
         """Return the same at x = ln(g/g_touch) and y = ln alpha."""
-        inside = self._inside(x, y)
-        size, direction = load_of(xi, wear, self.largest)
-        x, y = self._clamped(x, y)
+        return self._share(x, y, x + log_touch(self.touch, y), xi, wear)
+
+    def _share(self, x: Any, y: Any, log_g: Any, xi: Any, wear: Any) -> Any:
+        inside = self._inside(x, y, log_g)
+        size, direction = load_of(xi, wear, self.load_unit)
         with np.errstate(all="ignore"):
-            share = np.divide(size, self.reach_at(x, y, direction))
+            share = np.divide(size, self.reach_at(*self._clamped(x, y), direction))
         return where(size == 0.0, 0.0, where(inside, share, np.inf))
 
     def error(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return the bound of the error of ln kappa; nan where it is not known."""
-        share = self.share(g, alpha, xi, wear)
-        bound = self._of_cell(self.errors, g, alpha) * _between(share, LEAST_SHARE, 1.0)
-        return where(np.less_equal(share, 1.0), bound, np.nan)
+        return self._where_known(self.error_at, g, alpha, xi, wear)
 
     def most(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return a bound of |ln kappa|; nan where it is not known."""
-        known = np.less_equal(self.share(g, alpha, xi, wear), 1.0)
-        load = xi + 0.1 * _log1p(wear)
-        return where(known, self._of_cell(self.growth, g, alpha) * load, np.nan)
+        return self._where_known(self.most_at, g, alpha, xi, wear)
+
+    def _where_known(self, bound: Callable[[Place], Any], *load: Any) -> Any:
+        """Return a bound, nan where kappa is not known and 0 without load, where it is 1."""
+        place = self.place(*load)
+        value = bound(place) if np.any(place.known) else np.nan
+        unloaded = np.equal(load[2], 0.0) & np.equal(load[3], 0.0)
+        value = where(unloaded, 0.0, where(place.known, value, np.nan))
+        shape = np.broadcast_shapes(*map(np.shape, load))
+        return value + np.zeros(shape) if shape else value
 
     def place(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Place:
         """Return where a load is, and whether solutions reach there.
@@ -175,18 +183,20 @@ class Amplification:
         >>> here.known, kappa.log_at(here) == kappa.log_factor(0.1, 6.0, 0.01, 0.02)
         (True, True)
         """
-        size, direction = load_of(xi, wear, self.largest)
-        most = self._largest_reach
-        near = size <= most
+        size, direction = load_of(xi, wear, self.load_unit)
+        near = size <= self._largest_reach
         if near is False or not (near is True or np.any(near)):
             return Place(False, g, alpha, xi, wear, np.nan)
-        x, y = self._place(g, alpha)
-        inside = self._inside(x, y)
-        if not np.any(inside):
+        x, y, log_g = self._place(g, alpha)
+        inside = self._inside(x, y, log_g)
+        if inside is False or not (inside is True or np.any(inside)):
             return Place(inside, x, y, xi, wear, np.nan)
         reach = self.reach_at(*self._clamped(x, y), direction)
-        with np.errstate(all="ignore"):
-            share = where(size == 0.0, 0.0, np.divide(size, reach))
+        if type(reach) is type(size) is float:
+            share = size / reach if reach else where(size == 0.0, 0.0, np.inf)
+        else:
+            with np.errstate(all="ignore"):
+                share = where(size == 0.0, 0.0, np.divide(size, reach))
         return Place(inside & (size <= reach), x, y, xi, _log1p(wear), share)
 
     @cached_property
@@ -199,24 +209,28 @@ class Amplification:
 
     def error_at(self, place: Place) -> Any:
         """Return the bound of the error of ln kappa at places that are known."""
-        return self._in_cell(self.errors, place.x, place.y) * _between(
-            place.share, LEAST_SHARE, 1.0
-        )
+        bound = self._in_cell(self._errors, place.x, place.y)
+        return bound * _between(place.share, LEAST_SHARE, 1.0)
 
     def most_at(self, place: Place) -> Any:
         """Return a bound of |ln kappa| at places that are known."""
-        return self._in_cell(self.growth, place.x, place.y) * (place.xi + 0.1 * place.w)
+        return self._in_cell(self._growth, place.x, place.y) * (place.xi + 0.1 * place.w)
 
-    def _in_cell(self, table: Array, x: Any, y: Any) -> Any:
-        value = table[self._cell(x, y)]
-        return float(value) if np.ndim(value) == 0 else value
+    @cached_property
+    def _errors(self) -> CellValues:
+        return CellValues(self.errors)
 
-    def _inside(self, x: Any, y: Any) -> Any:
-        inside = (x >= self._ends[0][0]) & (x <= self._ends[0][1])
-        inside = inside & (y >= self._ends[1][0]) & (y <= self._ends[1][1])
-        low, high = self._log_ends
-        log_g = x + log_touch(self.touch, y)
-        return inside & (log_g >= low) & (log_g <= high)
+    @cached_property
+    def _growth(self) -> CellValues:
+        return CellValues(self.growth)
+
+    def _in_cell(self, table: CellValues, x: Any, y: Any) -> Any:
+        return table.at(*self._cell(x, y))
+
+    def _inside(self, x: Any, y: Any, log_g: Any) -> Any:
+        (left, right), (low, high), (first, last) = self._ends
+        inside = (x >= left) & (x <= right) & (y >= low) & (y <= high)
+        return inside & (log_g >= first) & (log_g <= last)
 
     def drift(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return how far ln kappa of the nearest load and g that are known may be off beyond them.
@@ -224,15 +238,15 @@ class Amplification:
         Over the load that is not reached it may go on at the largest rate of the cell, and so for
         each factor e in g; 0 where kappa is known, infinite at alphas where it is not.
         """
-        at = self._place(g, alpha)
-        x, y = self._clamped(*at)
-        size, direction = load_of(xi, wear, self.largest)
-        whole = self._of_cell(self.growth, g, alpha) * (xi + 0.1 * _log1p(wear))
+        left_x, left_y, log_g = self._place(g, alpha)
+        x, y = self._clamped(left_x, left_y)
+        size, direction = load_of(xi, wear, self.load_unit)
+        whole = self._in_cell(self._growth, left_x, left_y) * (xi + 0.1 * _log1p(wear))
+        low, high = self._ends[2]
         with np.errstate(all="ignore"):
             left = np.maximum(size - self.reach_at(x, y, direction), 0.0) / size
-            log_g, (low, high) = at[0] + log_touch(self.touch, at[1]), self._log_ends
-            apart = np.maximum(np.abs(at[0] - x), np.maximum(low - log_g, log_g - high))
-            drift = np.where(at[1] == y, whole * (left + apart), np.inf)
+            apart = np.maximum(np.abs(left_x - x), np.maximum(low - log_g, log_g - high))
+            drift = np.where(left_y == y, whole * (left + apart), np.inf)
         return np.where(np.equal(size, 0.0), 0.0, drift)
 
     @property
@@ -243,43 +257,43 @@ class Amplification:
 
     def near_error(self, g: Any, alpha: Any) -> Any:
         """Return the bound of the error of ln kappa in the nearest cell, whatever the load."""
-        return self._of_cell(self.errors, g, alpha)
+        x, y, _ = self._place(g, alpha)
+        return self._in_cell(self._errors, x, y)
 
-    def _place(self, g: Any, alpha: Any) -> tuple[Any, Any]:
-        y = log(alpha)
-        return log(g) - log_touch(self.touch, y), y
+    def _place(self, g: Any, alpha: Any) -> tuple[Any, Any, Any]:
+        """Return ln(g/g_touch), ln alpha and ln g."""
+        log_g, y = log(g), log(alpha)
+        return log_g - log_touch(self.touch, y), y, log_g
 
     @cached_property
-    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+    def _ends(self) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
+        """The ends of what is known in x, in y and in ln g."""
         x, y, _ = self.axes
-        return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1]))
-
-    @cached_property
-    def _log_ends(self) -> tuple[float, float]:
         with np.errstate(divide="ignore"):
-            return float(np.log(self.lowest)) - 1e-9, float(np.log(self.highest)) + 1e-9
+            ends = float(np.log(self.lowest)) - 1e-9, float(np.log(self.highest)) + 1e-9
+        return (float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])), ends
 
     def _clamped(self, x: Any, y: Any) -> tuple[Any, Any]:
-        (left, right), (low, high) = self._ends
+        (left, right), (low, high), _ = self._ends
         return _between(x, left, right), _between(y, low, high)
 
     def _at(self, g: Any, alpha: Any, xi: Any, wear: Any) -> tuple[tuple[Any, ...], Any]:
         """Return the variables of the polynomial, and whether they are free to move."""
-        place = self._place(g, alpha)
-        x, y = self._clamped(*place)
-        size, direction = load_of(xi, wear, self.largest)
+        x, y, log_g = self._place(g, alpha)
+        inside = self._inside(x, y, log_g)
+        x, y = self._clamped(x, y)
+        size, direction = load_of(xi, wear, self.load_unit)
         reach = self.reach_at(x, y, direction)
-        free = self._inside(*place) & (size <= reach)
-        most = edge_of(direction, self.largest)
         known = size <= reach
-        xi, wear = where(known, xi, reach * most[0]), where(known, wear, reach * most[1])
-        return (x, y, xi, _log1p(wear)), free
+        if known is not True:
+            most = edge_of(direction, self.load_unit)
+            xi, wear = where(known, xi, reach * most[0]), where(known, wear, reach * most[1])
+        return (x, y, xi, _log1p(wear)), inside & known
 
     def reach_at(self, x: Any, y: Any, direction: Any) -> Any:
         """Return the reach between its nodes, linear in each of the three."""
-        (i, s), (j, t), (k, u) = (
-            _node(axis, at) for axis, at in zip(self.axes, (x, y, direction), strict=True)
-        )
+        along_x, along_y, around = self._steps
+        (i, s), (j, t), (k, u) = _node(along_x, x), _node(along_y, y), _node(around, direction)
         if type(j) is int and type(k) is int:
             if type(i) is int:
                 rows = self._rows
@@ -295,6 +309,11 @@ class Amplification:
         return (1.0 - s) * first + s * last
 
     @cached_property
+    def _steps(self) -> list[tuple[float, float, int]]:
+        """Of each axis the first node, the step and the number of the last interval."""
+        return [(float(a[0]), float(a[1] - a[0]), len(a) - 2) for a in self.axes]
+
+    @cached_property
     def _rows(self) -> list[list[list[float]]]:
         """The reach as numbers."""
         return self.reach.tolist()  # type: ignore[no-any-return]
@@ -305,11 +324,34 @@ class Amplification:
         return np.asarray((rows == cell[0]) & (columns == cell[1]))
 
     def _cell(self, x: Any, y: Any) -> tuple[Any, Any]:
-        rows = np.searchsorted(self.edges[0][1:-1], x, side="right")
-        return rows, np.searchsorted(self.edges[1][1:-1], y, side="right")
+        return interval(self.edges[0], x), interval(self.edges[1], y)
 
-    def _of_cell(self, table: Array, g: Any, alpha: Any) -> Any:
-        return self._in_cell(table, *self._place(g, alpha))
+
+class CellValues:
+    """A number for each cell, of points in some cells.
+
+    Parameters
+    ----------
+    values : ndarray, shape (cells in x, cells in y)
+        The numbers.
+
+    Examples
+    --------
+    >>> of = CellValues(np.array([[1.0, 2.0], [3.0, 4.0]]))
+    >>> of.at(1, 0), of.at(np.array([0, 1]), 1).tolist()
+    (3.0, [2.0, 4.0])
+    """
+
+    def __init__(self, values: Array) -> None:
+        self._columns = values.shape[1]
+        self._flat = values.ravel()
+        self._numbers: list[float] = self._flat.tolist()
+
+    def at(self, row: Any, column: Any) -> Any:
+        """Return the numbers of cells."""
+        if type(row) is type(column) is int:
+            return self._numbers[row * self._columns + column]
+        return self._flat.take(np.multiply(row, self._columns, dtype=np.intp) + column)
 
 
 def load_of(xi: Any, wear: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
@@ -365,14 +407,14 @@ def _between(value: Any, low: float, high: float) -> Any:
     return np.minimum(np.maximum(value, low), high)
 
 
-def _node(axis: Array, value: Any) -> tuple[Any, Any]:
+def _node(axis: tuple[float, float, int], value: Any) -> tuple[Any, Any]:
     """Return the number of the interval of an even axis and the place in it."""
-    step = float(axis[1] - axis[0])
-    place = (value - float(axis[0])) / step
-    if type(value) is float:
-        number = min(max(int(place), 0), len(axis) - 2) if place == place else 0
+    first, step, last = axis
+    place = (value - first) / step
+    if type(place) is float:
+        number = min(max(int(place), 0), last) if place == place else 0
         return number, place - number
-    numbers = np.fmin(np.fmax(place, 0.0), len(axis) - 2).astype(np.intp)
+    numbers = np.fmin(np.fmax(place, 0.0), last).astype(np.intp)
     return numbers, place - numbers
 
 

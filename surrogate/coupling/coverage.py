@@ -20,7 +20,7 @@ from surrogate.contact.coordinates import touch_range
 from surrogate.contact.domain import g_range
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification, load_of
 
-__all__ = ["bounds_over", "uncovered"]
+__all__ = ["bounds_over", "is_beyond", "uncovered"]
 
 Range: TypeAlias = "tuple[float, float]"
 Box: TypeAlias = "Mapping[str, Range]"
@@ -60,6 +60,28 @@ def uncovered(kappa: Amplification, box: Box) -> tuple[dict[str, float], float] 
     return worst, share
 
 
+def is_beyond(kappa: Amplification, box: Box) -> bool:
+    """Return whether solutions reach to no scene of a box, as far as its ends tell.
+
+    Examples
+    --------
+    >>> from surrogate.coupling.shipped import amplification
+    >>> ends = (685.0, 1.6, 1e-3, 0.1, 7750.0, 2.0)
+    >>> names = "shear_modulus toughness wire_radius friction_coefficient wear_strength".split()
+    >>> names.append("stiffening_exponent")
+    >>> is_beyond(amplification(), {name: (end, end) for name, end in zip(names, ends)})
+    True
+    """
+    loads, g, alpha = _loads(box), g_range(box), box["stiffening_exponent"]
+    least = max(part[0] / unit for part, unit in zip(loads, kappa.load_unit, strict=True))
+    if least > float(kappa.reach.max()):
+        return True
+    return any(
+        ends[1] < axis[0] - _ROUNDING or ends[0] > axis[-1] + _ROUNDING
+        for axis, ends in zip(kappa.axes[:2], _place(kappa, g, alpha), strict=True)
+    )
+
+
 def _loads(box: Box) -> tuple[Range, Range]:
     """Return the ends of xi and tau_w/mu."""
     (least, most), mu = box["wear_strength"], box["shear_modulus"]
@@ -75,7 +97,7 @@ def _place(kappa: Amplification, g: Range, alpha: Range) -> tuple[Range, Range]:
 
 def _is_covered(kappa: Amplification, box: Box) -> bool:
     xi, wear = _loads(box)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
     if size == 0.0:
         return True
     g, alpha = g_range(box), box["stiffening_exponent"]
@@ -93,7 +115,7 @@ def _least_reach(kappa: Amplification, g: Range, alpha: Range, box: Box) -> floa
     xi, wear = _loads(box)
     # more of wear and less of friction is nearer to the direction of wear
     direction = tuple(
-        load_of(*load, kappa.largest)[1] for load in ((xi[1], wear[0]), (xi[0], wear[1]))
+        load_of(*load, kappa.load_unit)[1] for load in ((xi[1], wear[0]), (xi[0], wear[1]))
     )
     places = (*_place(kappa, g, alpha), direction)
     nodes = [_with_nodes(axis, ends) for axis, ends in zip(kappa.axes, places, strict=True)]
@@ -123,8 +145,8 @@ def _halves(kappa: Amplification, box: Box) -> list[dict[str, Range]]:
     """Return the two halves of a box across what varies most."""
     shares = {name: 1.0 - low / high if high else 0.0 for name, (low, high) in box.items()}
     xi, wear = _loads(box)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
-    for name, (_, high), most in zip(_LOADS, (xi, wear), kappa.largest, strict=True):
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
+    for name, (_, high), most in zip(_LOADS, (xi, wear), kappa.load_unit, strict=True):
         shares[name] *= high / most / size  # what matters of the smaller load
     name = max(box, key=shares.__getitem__)
     low, high = box[name]
@@ -156,7 +178,7 @@ def bounds_over(kappa: Amplification, g: Range, alpha: Range, box: Box) -> tuple
         cells.append(slice(int(first), int(last) + 1))
     xi, wear = _loads(box)
     load, here = xi[1] + 0.1 * math.log1p(wear[1]), tuple(cells)
-    size, _ = load_of(xi[1], wear[1], kappa.largest)
+    size, _ = load_of(xi[1], wear[1], kappa.load_unit)
     share = size / (_least_reach(kappa, g, alpha, box) or 1.0)
     error = float(kappa.errors[here].max()) * min(max(share, LEAST_SHARE), 1.0)
     return error, float(kappa.growth[here].max()) * load

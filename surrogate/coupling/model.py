@@ -128,11 +128,9 @@ class CoupledModel(OverSlip):
     def evaluated(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         g = quotient(gamma, mu, radius)
         friction, worn = self.slip.terms_at(g, mu, gamma, radius, xi, wear, alpha)
-        with np.errstate(all="ignore"):
-            factor, known = self.amplification.factor_and_known(g, alpha, xi, ratio(wear, mu))
-            kappa, inside = exp(factor), known & self.limits.holds(g, alpha)
-            inside = bool(inside) if np.ndim(inside) == 0 else inside
-            return _times(friction, kappa), _times(worn, kappa), inside
+        factor, known = self.amplification.factor_and_known(g, alpha, xi, ratio(wear, mu))
+        kappa, inside = exp(factor), known & self.limits.all_hold(g, alpha)
+        return _times(friction, kappa), _times(worn, kappa), inside
 
     def in_domain(self, mu: Any, gamma: Any, radius: Any, xi: Any, wear: Any, alpha: Any) -> Any:
         """Return whether the coupled solutions reach to the load; always where there is none."""
@@ -145,4 +143,4 @@ class CoupledModel(OverSlip):
 
 def _times(term: Any, factor: Any) -> Any:
     """Return the product, 0 where the term is 0 and the factor perhaps no number."""
-    return where(np.equal(term, 0.0), 0.0, term * factor)
+    return where(term == 0.0, 0.0, term * factor)

@@ -7,7 +7,7 @@ floats alone is collapsed to floats, so that an array of radii costs one polynom
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Polynomial", "horner"]
+__all__ = ["Polynomial", "horner", "of_one_number"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,37 @@ class Polynomial:
 
     def __call__(self, *variables: Any) -> Any:
         """Return the value at floats or at arrays that broadcast."""
-        return _horner(self.nested, variables)
+        first, *others = variables
+        if type(first) is np.ndarray and all(
+            type(other) is np.ndarray and other.shape == first.shape for other in others
+        ):
+            return self._in_place(*variables, *np.empty((len(variables), *first.shape)))
+        return self._plain(*variables)
+
+    @cached_property
+    def _plain(self) -> Callable[..., Any]:
+        """The value at floats, or at some arrays; what depends on floats alone is a float."""
+        return self._written("{target} = {left} {sign} {right}")
+
+    @cached_property
+    def _in_place(self) -> Callable[..., Any]:
+        """The same at arrays of one shape, with an array of that shape for each variable."""
+        return self._written("{name}({left}, {right}, {target})")
+
+    def _written(self, statement: str) -> Callable[..., Any]:
+        """Return the rule of Horner as a program, which takes a sixth of the time of a loop."""
+        steps: list[tuple[str, str, str, str]] = []
+        result = _steps(self.nested, 0, steps)
+        named = {"*": "multiply", "+": "add"}
+        lines = [
+            statement.format(target=target, left=left, sign=sign, right=right, name=named[sign])
+            for target, left, sign, right in steps
+        ]
+        numbers = range(self.powers.shape[1])
+        names = [f"x{i}" for i in numbers] + [f"v{i}=None" for i in numbers]
+        scope: dict[str, Any] = {"multiply": np.multiply, "add": np.add}
+        exec("\n    ".join([f"def of({', '.join(names)}):", *lines, f"return {result}"]), scope)
+        return scope["of"]  # type: ignore[no-any-return]
 
     def collapsed(self, values: Sequence[float | None]) -> Polynomial:
         """Return the polynomial of the variables whose value is None, with the others put in.
@@ -121,6 +151,20 @@ def horner(powers: Sequence[float], x: NDArray[np.float64], out: Any) -> Any:
     return out
 
 
+def of_one_number(powers: Sequence[float]) -> Callable[[float], float]:
+    """Return a polynomial of one number by its coefficients, written out for speed.
+
+    Examples
+    --------
+    >>> of_one_number((1.0, 2.0, 0.5))(2.0)
+    7.0
+    """
+    text = repr(float(powers[-1]))
+    for coefficient in powers[-2::-1]:
+        text = f"({text}*x + {float(coefficient)!r})"
+    return eval(f"lambda x: {text}")  # type: ignore[no-any-return]
+
+
 def _nested(powers: Sequence[Sequence[int]], coefficients: Sequence[float]) -> Any:
     """Return the coefficients as lists in lists: by the power of the first variable, and so on."""
     if not powers:
@@ -134,18 +178,15 @@ def _nested(powers: Sequence[Sequence[int]], coefficients: Sequence[float]) -> A
     return rows
 
 
-def _horner(rows: Any, variables: Sequence[Any]) -> Any:
+def _steps(rows: Any, level: int, steps: list[tuple[str, str, str, str]]) -> str:
+    """Write what is to be done, variable x by variable, into values v, and return the result."""
     if type(rows) is float:
-        return rows
-    first, others = variables[0], variables[1:]
-    if not others:  # the same, and quicker
-        value = rows[-1]
-        for row in rows[-2::-1]:
-            value = value * first + row if row != 0.0 else value * first
-        return value
-    value = _horner(rows[-1], others)
+        return repr(rows)
+    variable, target = f"x{level}", f"v{level}"
+    value = _steps(rows[-1], level + 1, steps)
     for row in rows[-2::-1]:
-        value = value * first
+        steps.append((target, value, "*", variable))
+        value = target
         if row != 0.0:
-            value = value + _horner(row, others)
+            steps.append((target, value, "+", _steps(row, level + 1, steps)))
     return value

@@ -31,7 +31,7 @@ def content_of_amplification(kappa: Amplification) -> bytes:
     about = {
         **kappa.about,
         "touch": list(kappa.touch),
-        "largest": list(kappa.largest),
+        "largest": list(kappa.load_unit),
         "lowest": kappa.lowest,
         "highest": kappa.highest,
         "edges": [list(each) for each in kappa.edges],

@@ -18,7 +18,7 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import apply
 from surrogate.basics.records import Record
-from surrogate.choosing.by_name import force_model
+from surrogate.choosing.by_name import force_model, one_name
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_below_highest
 from surrogate.errors import DomainError
@@ -179,7 +179,7 @@ def contact_functions(
 
 def _automatic(values: tuple[Any, Any], rtol: float) -> ContactFunctions:
     """Return each point by the cheapest model that is exact enough."""
-    from surrogate.choosing.auto import automatic_contact, one_name
+    from surrogate.choosing.auto import automatic_contact
 
     names, shape, found = automatic_contact(_evaluated, values, rtol)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from surrogate.basics.checks import (
 )
 from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply
 from surrogate.basics.records import LateRecord
-from surrogate.choosing.by_name import AUTO, force_model, is_auto
+from surrogate.choosing.by_name import AUTO, force_model, is_auto, one_name
 from surrogate.choosing.effective import doubt_of_law
 from surrogate.choosing.laws import (
     PROJECTED,
@@ -29,9 +29,9 @@ from surrogate.choosing.laws import (
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.other_law import law_for, warn_of_other_law
 from surrogate.errors import InputError
-from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = ["CuttingForce", "cutting_force", "force_of", "warn_if_other_law"]
@@ -106,6 +106,12 @@ class CuttingForce(LateRecord):
     fit_error: FloatOrArray | None = None
     law_error: FloatOrArray | None = None
     doubts: tuple[str, ...] = ()
+
+
+_complete = CuttingForce.without()
+_by_name = CuttingForce.without("relative_error", "fit_error", "law_error")
+_without_errors = CuttingForce.without("relative_error", "fit_error", "law_error", "doubts")
+_of_projected = CuttingForce.without("relative_error", "law_error")
 
 
 def cutting_force(
@@ -230,7 +236,7 @@ def cutting_force(
     wanted = of_law(model, law, True, notch_radius)
     force = force_of(scene, wanted, rtol, extrapolate, outside)
     warn_of_scene(scene.values())
-    warn_of_other_law(scene, law, force, partial(_by_own_law, scene))
+    warn_of_other_law(scene, law, force, _by_own_law)
     return force
 
 
@@ -250,7 +256,7 @@ def warn_if_other_law(scene: Scene, model: Any, law: Any, depth: int = 4) -> Non
     """
     if scene.law is not None:
         force = force_of(scene, of_law(model, law, any_law=True), extrapolate=True)
-        warn_of_other_law(scene, law, force, partial(_by_own_law, scene), depth)
+        warn_of_other_law(scene, law, force, _by_own_law, depth)
 
 
 def _by_own_law(scene: Scene) -> Any:
@@ -302,18 +308,10 @@ def force_of(
             require_known_load(chosen, values)
         elif extrapolate:
             chosen.require_known(values)
-    force = CuttingForce.later(
+    name, law = chosen.name, chosen.law
+    force = _by_name(
         lambda: _errors(chosen, scene),
-        total=total,
-        cleavage=cleavage,
-        friction=friction,
-        wear=wear,
-        model=chosen.name,
-        in_domain=holds,
-        chosen=chosen.name,
-        law=chosen.law,
-        laws=chosen.law,
-        doubts=(),
+        *(total, cleavage, friction, wear, name, holds, name, law, law, ()),
     )
     return _blanked(force, scene, fitted and stays and not extrapolate)
 
@@ -350,59 +348,65 @@ def _summed(scene: Scene, terms: Any) -> Any:
 
 
 @cache
-def _kernels() -> tuple[Any, Any, Any]:
+def _choosing() -> Any:
     """Return what chooses, which closed forms by name do not load."""
-    from surrogate.choosing.auto import AutomaticTerms, one_name
-    from surrogate.choosing.auto_law import LawfulTerms
+    from surrogate.choosing import auto_law
 
-    return AutomaticTerms, LawfulTerms, one_name
+    return auto_law
 
 
 def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) -> CuttingForce:
-    _, LawfulTerms, one_name = _kernels()
-    lawful = LawfulTerms(scene.values(), rtol, named=model.named)
+    values, choosing = scene.values(), _choosing()
+    if model.named is None and {*map(type, values)} != {float}:
+        common = choosing.common_terms(values, rtol)
+        if common is not None:
+            return _of_common(scene, common)
+    lawful = choosing.LawfulTerms(values, rtol, named=model.named)
     total, cleavage, friction, wear, holds, number, law, fit, of_law = _summed(scene, lawful)
     lawful.finish(extrapolate)
     names, laws = lawful.names(number), lawful.laws(law)
     doubt = doubt_of_law(of_law != of_law)
-    return CuttingForce(
-        total,
-        cleavage,
-        friction,
-        wear,
-        one_name(names),
-        fit + of_law,
-        holds,
-        names,
-        one_name(laws),
-        laws,
-        fit,
-        of_law,
-        () if doubt is None else (doubt,),
+    return _complete(
+        None,
+        *(total, cleavage, friction, wear, one_name(names), fit + of_law, holds, names),
+        *(one_name(laws), laws, fit, of_law, () if doubt is None else (doubt,)),
     )
+
+
+def _of_common(scene: Scene, terms: Any) -> CuttingForce:
+    """Return the force of scenes that share law and model, whose errors differ."""
+    total, cleavage, friction, wear, holds = _summed(scene, terms)
+    name, law = terms.model.name, terms.model.law
+    names, laws = (np.broadcast_to(np.array(each), scene.shape) for each in (name, law))
+    return _without_errors(
+        lambda: _errors_of_each(scene),
+        *(total, cleavage, friction, wear, name, holds, names, law, laws),
+    )
+
+
+def _errors_of_each(scene: Scene) -> dict[str, Any]:
+    lawful = _choosing().LawfulTerms(scene.values(), None)
+    *_, fit, of_law = _summed(scene, lawful)
+    doubt = doubt_of_law(of_law != of_law)
+    return {
+        "relative_error": fit + of_law,
+        "fit_error": fit,
+        "law_error": of_law,
+        "doubts": () if doubt is None else (doubt,),
+    }
 
 
 def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingForce:
     from surrogate.choosing.candidates import OUTSIDE
 
-    AutomaticTerms, _, one_name = _kernels()
-    automatic = AutomaticTerms(scene.values(), rtol)
+    automatic = _choosing().AutomaticTerms(scene.values(), rtol)
     total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
     automatic.finish(extrapolate)
     names = automatic.names(number)
-    return CuttingForce.later(
+    return _of_projected(
         lambda: _errors(automatic.known.fitted.models[OUTSIDE], scene, bound),
-        total=total,
-        cleavage=cleavage,
-        friction=friction,
-        wear=wear,
-        model=one_name(names),
-        in_domain=holds,
-        chosen=names,
-        law=PROJECTED,
-        laws=PROJECTED,
-        fit_error=bound,
-        doubts=(),
+        *(total, cleavage, friction, wear, one_name(names), holds, names),
+        *(PROJECTED, PROJECTED, bound, ()),
     )
 
 

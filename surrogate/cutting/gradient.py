@@ -16,9 +16,9 @@ from surrogate.choosing.parted import parted
 from surrogate.contact.base import ForceModel
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.force import warn_if_other_law
 from surrogate.cutting.other_law import law_for
-from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import NAMES, Scene, require_scene
 
 __all__ = ["ForceGradient", "force_gradient"]

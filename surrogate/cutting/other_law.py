@@ -35,7 +35,7 @@ def law_for(scene: Scene, law: Any) -> Any:
 
 
 def warn_of_other_law(
-    scene: Scene, law: Any, force: Any, own: Callable[[], Any], depth: int = 3
+    scene: Scene, law: Any, force: Any, own: Callable[[Scene], Any], depth: int = 3
 ) -> None:
     """Warn where a force is under another law than the scene's parameters were identified under.
 
@@ -48,7 +48,7 @@ def warn_of_other_law(
     force : CuttingForce
         Its force under that.
     own : callable
-        Returns its total under the law of the parameters [N/m].
+        Returns a scene's total under the law of its parameters [N/m].
     depth : int
         Whose line the warning names: 3 for that of the caller's caller.
     """
@@ -60,7 +60,7 @@ def warn_of_other_law(
     if not np.any(other):
         return
     with np.errstate(all="ignore"):
-        moved = np.abs(np.divide(force.total, own()) - 1.0)[other]
+        moved = np.abs(np.divide(force.total, own(scene)) - 1.0)[other]
     if not np.any(moved > 0.0):
         return
     used = np.unique(np.broadcast_to(force.laws, other.shape)[other])

@@ -20,9 +20,9 @@ from surrogate.basics.records import Record
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.laws import PROJECTED, AnyLaw, of_law
 from surrogate.contact.base import ForceModel
+from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.force import CuttingForce, force_of, warn_if_other_law
 from surrogate.cutting.other_law import law_for
-from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = [

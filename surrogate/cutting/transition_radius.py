@@ -31,9 +31,9 @@ from surrogate.choosing.effective import warn_of_law
 from surrogate.choosing.laws import AnyLaw, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.model_transition import transition_under, under_best_law
 from surrogate.cutting.other_law import law_for
-from surrogate.reading.plausibility import warn_of_scene
 from surrogate.scene import Scene, require_scene
 
 __all__ = [

@@ -122,7 +122,7 @@ def _of_coupled(known: Candidates) -> dict[str, Any]:
             "terms": [[*map(int, powers), float(c)] for powers, c in terms],
             "axes": [axis.tolist() for axis in kappa.axes],
             "reach": {"values": reach.tolist(), "places": places.ravel().tolist()},
-            "largest": kappa.largest,
+            "loadUnit": kappa.load_unit,
             "edges": kappa.edges,
             "errors": kappa.errors.tolist(),
             "growth": kappa.growth.tolist(),

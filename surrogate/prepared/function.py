@@ -144,7 +144,11 @@ class ForceFunction:
             value = values[0]
             low, high, force, straight = self._one
             if type(value) is float:
-                if out is None and low <= value <= high and _is_known(outside):
+                if (
+                    out is None
+                    and low <= value <= high
+                    and (outside is RAISE or _is_known(outside))
+                ):
                     return force(value)
             elif straight is not None and _is_inside(value, low, high) and _is_known(outside):
                 return _filled(straight.of, value, out)
@@ -314,7 +318,7 @@ def _percent(error: float) -> str:
 
 
 def _is_known(outside: object) -> bool:
-    return outside is RAISE or (isinstance(outside, str) and outside in OUTSIDE)
+    return isinstance(outside, str) and outside in OUTSIDE
 
 
 def _is_single(values: list[Any]) -> bool:

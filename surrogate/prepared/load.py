@@ -17,7 +17,7 @@ import numpy as np
 from surrogate.basics.elementwise import dense, exp, log
 from surrogate.contact.coordinates import log_touch
 from surrogate.coupling.amplification import Amplification
-from surrogate.coupling.polynomial import Polynomial, horner
+from surrogate.coupling.polynomial import Polynomial, horner, of_one_number
 from surrogate.scene import NAMES
 
 __all__ = ["Load", "Strength", "log1p"]
@@ -163,21 +163,12 @@ class Strength:
     @property
     def number(self) -> Callable[[float], float]:
         """The force of a float."""
-        rest, constant, slope, mu, powers = (
-            self.rest,
-            self.constant,
-            self.slope,
-            self.mu,
-            self.powers,
-        )
-        last, others, power, one_more = powers[-1], powers[-2::-1], np.exp, np.log1p
+        rest, constant, slope, mu = self.rest, self.constant, self.slope, self.mu
+        log_kappa, exp_of, one_more = of_one_number(self.powers), np.exp, np.log1p
 
         def force(value: float) -> float:
             variable = value if mu is None else float(one_more(value / mu))
-            log_kappa = last
-            for coefficient in others:
-                log_kappa = log_kappa * variable + coefficient
-            return rest + (constant + value * slope) * float(power(log_kappa))
+            return rest + (constant + value * slope) * float(exp_of(log_kappa(variable)))
 
         return force
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.contact.table import cubics
-from surrogate.coupling.polynomial import horner
+from surrogate.coupling.polynomial import horner, of_one_number
 from surrogate.prepared.line import Line
 
 __all__ = ["Straight"]
@@ -97,19 +97,16 @@ class Straight:
     def _amplified(self) -> Callable[[float], float]:
         line, start, sign, constant, slope = self._numbers
         rows, before, after, short, ln = line.rows, line.before, line.after, line.short, np.log
-        last, others, exp, times = self.powers[-1], self.powers[-2::-1], np.exp, self.times
+        log_kappa, exp, times = of_one_number(self.powers), np.exp, self.times
         offset = self.offset
 
         def force(value: float) -> float:
             x = start + sign * float(ln(value))
-            log_kappa, away = last, x + offset
-            for coefficient in others:
-                log_kappa = log_kappa * away + coefficient
             t = (before if x < 0.0 else after) * x + short
             piece = int(t)
             t -= piece
             a, b, c, d = rows[piece]
-            drag = (a + t * (b + t * (c + t * d))) * float(exp(log_kappa))
+            drag = (a + t * (b + t * (c + t * d))) * float(exp(log_kappa(x + offset)))
             if times is None:
                 return value * slope + constant + drag
             return value * (slope + drag) + constant

@@ -9,14 +9,11 @@ halve the wear strength: name the column wire_diameter, and it is halved for you
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-
-from surrogate.errors import ImplausibleInputWarning
 
 __all__ = [
     "COHESIVE_LENGTH",
@@ -28,10 +25,8 @@ __all__ = [
     "WEAR_STRENGTH",
     "WORK_OF_FRACTURE",
     "Plausible",
-    "are_believable",
     "doubts",
     "doubts_of_scene",
-    "warn_of_scene",
 ]
 
 
@@ -172,25 +167,6 @@ SCENE = (SHEAR_MODULUS, TOUGHNESS, RADIUS, FRICTION, WEAR_STRENGTH)
 """What the first five quantities of a scene are."""
 
 
-def are_believable(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any) -> bool:
-    """Whether five numbers can be those of a cut; 0, which neglects something, always can.
-
-    Examples
-    --------
-    >>> are_believable(685.0, 1.6, 0.2e-3, 0.0, 7750.0), are_believable(685.0, 1.6, 0.2, 0.0, 0.0)
-    (True, False)
-    """
-    # The ranges of SCENE and COHESIVE_LENGTH once more: every force of one wire passes here.
-    return bool(
-        (1.0 <= mu <= 1e8 or mu == 0.0)
-        and (1e-3 <= gamma <= 1e6 or gamma == 0.0)
-        and (1e-6 <= radius <= 1e-2 or radius == 0.0)
-        and 0.0 <= xi <= 2.0
-        and (1.0 <= tau <= 1e9 or tau == 0.0)
-        and (gamma <= mu or mu == 0.0)
-    )
-
-
 def doubts_of_scene(values: Sequence[Any]) -> list[str]:
     """Return what can hardly be meant among the quantities of a scene, in words.
 
@@ -217,25 +193,6 @@ likely percent given as a number: check the unit
             length = np.where(np.equal(mu, 0.0), 0.0, np.divide(gamma, mu))
         sentences += doubts(COHESIVE_LENGTH, length)
     return sentences
-
-
-def warn_of_scene(values: Sequence[Any], depth: int = 3) -> None:
-    """Warn of each doubt about a scene, as if the caller's caller did.
-
-    Parameters
-    ----------
-    values : sequence of float or ndarray
-        See `doubts_of_scene`.
-    depth : int
-        Whose line the warning names: 3 for that of the caller's caller.
-    """
-    mu, gamma, radius, xi, tau = values[:5]
-    if type(mu) is type(gamma) is type(radius) is type(xi) is type(tau) is float and are_believable(
-        mu, gamma, radius, xi, tau
-    ):
-        return
-    for sentence in doubts_of_scene(values):
-        warnings.warn(f"{sentence}.", ImplausibleInputWarning, stacklevel=depth)
 
 
 def _not_zero(quantity: Plausible, value: Any) -> Any:

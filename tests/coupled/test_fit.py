@@ -109,7 +109,7 @@ def test_the_command_refuses_a_short_data_set_in_one_line(touch, tmp_path, capsy
 def test_the_file_is_small_and_carries_its_data(fitted_folder, kappa):
     assert (fitted_folder.path / AMPLIFICATION_FILE).stat().st_size < 150_000
     assert kappa.about["data"]["design"] == "made up"
-    assert kappa.largest == LOAD_UNIT
+    assert kappa.load_unit == LOAD_UNIT
     assert fitted_folder.printed == f"{fitted_folder.path / CARD}\n"
 
 

@@ -26,6 +26,7 @@ from surrogate import (
 )
 from surrogate.choosing.by_name import force_model
 from surrogate.cli.main import main
+from surrogate.contact.shipped import location
 from surrogate.maps.belonging import require_the_same
 from surrogate.maps.figure import save_regime_map
 from surrogate.scene import NAMES
@@ -67,7 +68,8 @@ def test_where_two_percent_cannot_be_had_the_law_of_the_smaller_error_is_taken(
     coupled, monkeypatch
 ):
     rough = replace(coupled, errors=coupled.errors + 0.2)
-    monkeypatch.setattr(surrogate.choosing.auto_law, "amplification_if_any", lambda: rough)
+    in_use = surrogate.choosing.auto_law._at(*location())._replace(kappa=rough)
+    monkeypatch.setattr(surrogate.choosing.auto_law, "_at", lambda *_: in_use)
     rng = np.random.default_rng(5)
     short = 0
     for _ in range(10):

@@ -1,5 +1,6 @@
 """The laws "coupled" and "auto": their forces, errors and slopes, and who falls back to what."""
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from surrogate import (
     transition_radius,
 )
 from surrogate.choosing.laws import coupled as under_coupled
+from surrogate.contact.shipped import in_use
 from surrogate.scene import NAMES
 
 SOLID = Scene(5e3, 1.0, [0.5e-3, 2e-3, 8e-3], 0.02, 500.0, 4.0)
@@ -198,10 +200,14 @@ def test_regime_and_propagation_know_the_law(coupled):
     assert np.all(full.model_std > slip.model_std)
 
 
-def test_without_its_file_the_law_is_refused_with_the_remedy(installed, tmp_path, monkeypatch):
-    import surrogate.coupling.shipped
+def test_without_its_file_the_law_is_refused_with_the_remedy(installed, fitted_file, tmp_path):
+    for name in (fitted_file.name, f"{fitted_file.name}.sha256"):
+        shutil.copy(fitted_file.parent / name, tmp_path / name)
+    with in_use(tmp_path):
+        _require_refusal()
 
-    monkeypatch.setattr(surrogate.coupling.shipped, "folder_in_use", lambda: tmp_path)
+
+def _require_refusal():
     with pytest.raises(InputError, match=r"coupled\.npz"):
         cutting_force(SOLID, law="coupled")
     for model in ("auto", "table"):

@@ -20,11 +20,11 @@ from surrogate import (
     wear_transition_radius,
 )
 from surrogate.cli.main import main
+from surrogate.cutting.believable import are_believable
 from surrogate.reading import plausibility
 from surrogate.reading.plausibility import (
     COHESIVE_LENGTH,
     SCENE,
-    are_believable,
     doubts_of_scene,
 )
 

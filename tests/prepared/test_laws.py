@@ -1,12 +1,11 @@
 """Prepared forces under the laws "coupled" and "auto": their numbers, promises and refusals."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from boxes import Box, prints_alike
 
 from surrogate import (
     AccuracyError,
@@ -25,43 +24,32 @@ TISSUE = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
 #: By which the polynomial of kappa is off where it is evaluated in plain powers: its terms, of
 #: which each loses some 2**-53, are up to 1e6 together; about the middle of its range they are 500.
 PLAIN = 1e-9
-BOX = {
-    "shear_modulus": (8e3, 20e3),
-    "toughness": (3.0, 9.0),
-    "wire_radius": (4e-4, 2e-3),
-    "friction_coefficient": (0.0, 0.01),
-    "wear_strength": (1.0, 5e2),
-    "stiffening_exponent": (5.5, 7.0),
-}
+HERE = Box(
+    TISSUE,
+    {
+        "shear_modulus": (8e3, 20e3),
+        "toughness": (3.0, 9.0),
+        "wire_radius": (4e-4, 2e-3),
+        "friction_coefficient": (0.0, 0.01),
+        "wear_strength": (1.0, 5e2),
+        "stiffening_exponent": (5.5, 7.0),
+    },
+)
 ONES = [(name,) for name in NAMES]
 SEVERAL = [("toughness", "wire_radius"), ("wear_strength", "wire_radius"), NAMES]
 ALONE = {"wear alone": (0.0, 1e3), "friction alone": (0.02, 0.0), "both": (0.01, 1e3)}
 
 
 def of(varying, law="coupled", fixed=TISSUE, **options):
-    return prepare(fixed, varying, {name: BOX[name] for name in varying}, law=law, **options)
-
-
-def points(varying, count=1000, seed=1):
-    """Return values in the ranges, the ends among them."""
-    random = np.random.default_rng(seed)
-    values = [random.uniform(*BOX[name], count) for name in varying]
-    for value, name in zip(values, varying, strict=True):
-        value[:2] = BOX[name]
-    return values
-
-
-def scene_of(varying, values, fixed=TISSUE):
-    scene = dict(zip(NAMES, fixed.values(), strict=True))
-    return Scene(**scene | dict(zip(varying, values, strict=True)))
+    return prepare(fixed, varying, HERE.of(varying), law=law, **options)
 
 
 @pytest.mark.parametrize("load", ALONE.values(), ids=ALONE)
 @pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
 def test_it_is_the_coupled_force_and_the_same_for_numbers(varying, load):
     fixed = replace(TISSUE, friction_coefficient=load[0], wear_strength=load[1])
-    force, values = of(varying, fixed=fixed), points(varying)
-    scene = scene_of(varying, values, fixed)
+    force, values = of(varying, fixed=fixed), HERE.points(varying)
+    scene = HERE.scene_of(varying, values, fixed)
     found = force(*values)
     expected = cutting_force(scene, "table", law="coupled")
     np.testing.assert_allclose(found, expected.total, rtol=PLAIN)
@@ -78,7 +66,7 @@ def test_it_is_the_coupled_force_and_the_same_for_numbers(varying, load):
 @pytest.mark.parametrize("name", NAMES[:5])
 def test_what_is_proven_to_be_monotonic_is_inverted(name, load):
     fixed = replace(TISSUE, friction_coefficient=load[0], wear_strength=load[1])
-    force, (values,) = of((name,), fixed=fixed), points((name,), 300)
+    force, (values,) = of((name,), fixed=fixed), HERE.points((name,), 300)
     signs = set(np.sign(force.derivative(values)))
     if force.monotonic == "unknown":
         assert len(signs) == 2
@@ -94,7 +82,7 @@ def test_a_force_that_turns_is_not_inverted():
     for xi, tau in ((0.0, 1e3), (0.01, 500.0), (0.02, 0.0)):
         fixed = replace(TISSUE, friction_coefficient=xi, wear_strength=tau)
         force = of(("shear_modulus",), fixed=fixed)
-        signs = set(np.sign(force.derivative(np.linspace(*BOX["shear_modulus"], 2000))))
+        signs = set(np.sign(force.derivative(np.linspace(*HERE.ends["shear_modulus"], 2000))))
         turns[force.monotonic] = signs
     assert turns == {"falling": {-1.0}, "unknown": {-1.0, 1.0}, "rising": {1.0}}
     with pytest.raises(InputError, match="must be monotonic to be inverted"):
@@ -107,11 +95,11 @@ def test_where_solutions_end_is_proven_over_the_whole_range():
     kappa = amplification()
     for _ in range(300):
         box = {}
-        for name, (low, high) in (BOX | {"stiffening_exponent": (3.0, 9.0)}).items():
+        for name, (low, high) in (HERE.ends | {"stiffening_exponent": (3.0, 9.0)}).items():
             ends = np.sort(random.uniform(low, high, 2))
             box[name] = tuple(ends.tolist()) if random.uniform() < 0.4 else (ends[0], ends[0])
         for name, most in (("friction_coefficient", 0.3), ("wear_strength", 2e4)):
-            scale = most * random.uniform() ** 2 / BOX[name][1]
+            scale = most * random.uniform() ** 2 / HERE.ends[name][1]
             box[name] = tuple(scale * end for end in box[name])
         shares = random.uniform(size=(6, 2000))
         low, high = np.array(list(box.values())).T[:, :, None]
@@ -155,8 +143,8 @@ def test_auto_is_one_law_whose_error_is_proven_or_said_to_be_unknown(load):
     fixed = replace(TISSUE, friction_coefficient=load[0], wear_strength=load[1])
     force = of(("wire_radius",), "auto", fixed)
     assert force.law == law
-    (radii,) = points(("wire_radius",))
-    scene = scene_of(("wire_radius",), (radii,), fixed)
+    (radii,) = HERE.points(("wire_radius",))
+    scene = HERE.scene_of(("wire_radius",), (radii,), fixed)
     model = "table" if force.terms["wear"] == "table" else "eq13"
     expected = cutting_force(scene, model, law=law).total
     np.testing.assert_allclose(force(radii), expected, rtol=PLAIN)
@@ -195,8 +183,8 @@ def test_a_named_model_has_a_law_chosen_too():
 
 def test_buffers_and_single_precision():
     for varying in (("wire_radius",), ("toughness",), ("friction_coefficient",)):
-        force, (values,) = of(varying), points(varying, 20000)
-        values[:] = np.clip(values, *BOX[varying[0]])
+        force, (values,) = of(varying), HERE.points(varying, 20000)
+        values[:] = np.clip(values, *HERE.ends[varying[0]])
         expected, room = force(values), np.empty(values.shape, np.float32)
         assert force(values, out=room) is room
         np.testing.assert_array_equal(room, expected.astype(np.float32))
@@ -230,8 +218,7 @@ print("alike")
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="numba is not installed")
 def test_with_numba_the_digits_are_the_same():
-    done = subprocess.run([sys.executable, "-c", BOTH], capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("alike\n", "")
+    assert prints_alike(BOTH)
 
 
 @pytest.mark.parametrize("load", ALONE.values(), ids=ALONE)
@@ -240,8 +227,8 @@ def test_with_numba_the_digits_are_the_same():
 def test_the_error_of_a_named_law_is_that_of_its_models_and_of_itself(law, model, load):
     fixed = replace(TISSUE, friction_coefficient=load[0], wear_strength=load[1])
     force = of(("wire_radius", "stiffening_exponent"), law, fixed, model=model)
-    values = points(("wire_radius", "stiffening_exponent"), 300)
-    scene = scene_of(("wire_radius", "stiffening_exponent"), values, fixed)
+    values = HERE.points(("wire_radius", "stiffening_exponent"), 300)
+    scene = HERE.scene_of(("wire_radius", "stiffening_exponent"), values, fixed)
     coupled = cutting_force(scene, "table", law="coupled")
     apart = np.abs(force(*values) / coupled.total - 1.0)
     assert np.max(apart - coupled.relative_error) <= force.relative_error < 1.0

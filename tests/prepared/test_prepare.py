@@ -1,12 +1,11 @@
 """Prepared forces: the numbers of the models, what is proven of them, and what is refused."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from boxes import Box, prints_alike
 
 from surrogate import (
     AccuracyError,
@@ -21,14 +20,17 @@ from surrogate.choosing.candidates import candidates
 from surrogate.scene import NAMES
 
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
-BOX = {
-    "shear_modulus": (400.0, 2000.0),
-    "toughness": (0.8, 3.0),
-    "wire_radius": (1e-4, 1e-3),
-    "friction_coefficient": (0.0, 0.3),
-    "wear_strength": (100.0, 9000.0),
-    "stiffening_exponent": (2.0, 4.0),
-}
+HERE = Box(
+    GEL,
+    {
+        "shear_modulus": (400.0, 2000.0),
+        "toughness": (0.8, 3.0),
+        "wire_radius": (1e-4, 1e-3),
+        "friction_coefficient": (0.0, 0.3),
+        "wear_strength": (100.0, 9000.0),
+        "stiffening_exponent": (2.0, 4.0),
+    },
+)
 ONES = [(name,) for name in NAMES]
 SEVERAL = [
     ("toughness", "wire_radius"),
@@ -39,32 +41,14 @@ SEVERAL = [
 
 
 def of(varying, model="table", fixed=GEL, **options):
-    return prepare(fixed, varying, {name: BOX[name] for name in varying}, model, **options)
-
-
-def points(varying, count=2000, seed=1):
-    """Return values in the ranges, the ends among them."""
-    random = np.random.default_rng(seed)
-    values = [random.uniform(*BOX[name], count) for name in varying]
-    for value, name in zip(values, varying, strict=True):
-        value[:2] = BOX[name]
-    return values
-
-
-def scene_of(varying, values, fixed=GEL):
-    return Scene(
-        **{
-            **dict(zip(NAMES, fixed.values(), strict=True)),
-            **dict(zip(varying, values, strict=True)),
-        }
-    )
+    return prepare(fixed, varying, HERE.of(varying), model, **options)
 
 
 @pytest.mark.parametrize("model", ["table", "eq13", "low-toughness"])
 @pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
 def test_it_is_the_models_force_and_the_same_for_numbers(varying, model):
-    force, values = of(varying, model), points(varying)
-    expected = cutting_force(scene_of(varying, values), model, law="projected").total
+    force, values = of(varying, model), HERE.points(varying)
+    expected = cutting_force(HERE.scene_of(varying, values), model, law="projected").total
     found = force(*values)
     np.testing.assert_allclose(found, expected, rtol=1e-13)
     for i in range(40):
@@ -76,8 +60,8 @@ def test_it_is_the_models_force_and_the_same_for_numbers(varying, model):
 
 @pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
 def test_derivatives_are_those_of_the_model(varying):
-    force, values = of(varying), points(varying, 300)
-    expected = force_gradient(scene_of(varying, values), "table", law="projected")
+    force, values = of(varying), HERE.points(varying, 300)
+    expected = force_gradient(HERE.scene_of(varying, values), "table", law="projected")
     found = force.gradient(*values)
     for name in varying:
         np.testing.assert_allclose(found[name], getattr(expected, name), rtol=1e-11, atol=1e-300)
@@ -102,8 +86,8 @@ def test_auto_keeps_its_promise_beside_the_gp_whose_bounds_it_uses(rtol):
 
 @pytest.mark.parametrize("varying", ONES + SEVERAL, ids=str)
 def test_under_the_law_of_slip_it_is_the_force_of_that_law(varying):
-    force, values = of(varying, law="slip"), points(varying)
-    scene = scene_of(varying, values)
+    force, values = of(varying, law="slip"), HERE.points(varying)
+    scene = HERE.scene_of(varying, values)
     np.testing.assert_allclose(
         force(*values), cutting_force(scene, "table", law="slip").total, rtol=1e-13
     )
@@ -191,7 +175,7 @@ def test_what_the_scene_lacks_is_left_out():
 def test_monotonic_forces_are_inverted(name):
     force = of((name,))
     assert force.monotonic == "rising"
-    (values,) = points((name,), 200)
+    (values,) = HERE.points((name,), 200)
     back = force.inverse(force(values))
     np.testing.assert_allclose(force(back), force(values), rtol=1e-14)
     np.testing.assert_allclose(back, values, rtol=1e-10)
@@ -232,11 +216,11 @@ def test_where_slip_jumps_at_the_touch_there_is_no_inverse():
 
 def test_a_modulus_is_found_where_one_term_needs_it():
     gel = Scene(685.0, 1.6, 0.25e-3, 0.0, 7750.0, 2.5)
-    force = prepare(gel, ("shear_modulus",), {"shear_modulus": BOX["shear_modulus"]}, "table")
-    values = np.linspace(*BOX["shear_modulus"], 300)
+    force = prepare(gel, ("shear_modulus",), {"shear_modulus": HERE.ends["shear_modulus"]}, "table")
+    values = np.linspace(*HERE.ends["shear_modulus"], 300)
     slopes = np.sign(force.derivative(values))
     assert {"falling": {-1.0}, "rising": {1.0}}.get(force.monotonic, {-1.0, 1.0}) == set(slopes)
-    both = prepare(GEL, ("shear_modulus",), {"shear_modulus": BOX["shear_modulus"]}, "table")
+    both = prepare(GEL, ("shear_modulus",), {"shear_modulus": HERE.ends["shear_modulus"]}, "table")
     assert both.monotonic == "unknown"
 
 
@@ -259,7 +243,7 @@ def test_outside_the_range():
 
 @pytest.mark.parametrize("varying", ONES, ids=str)
 def test_buffers_and_single_precision(varying):
-    force, ends = of(varying), BOX[varying[0]]
+    force, ends = of(varying), HERE.ends[varying[0]]
     values = np.linspace(*ends, 20001)
     exact, buffer = force(values), np.empty(20001)
     assert force(values, out=buffer) is buffer
@@ -324,9 +308,8 @@ print("alike")
 @pytest.mark.skipif(find_spec("numba") is None, reason="numba is not installed")
 def test_with_numba_the_digits_are_the_same():
     """In a process of its own, as numba changes how all tables are evaluated."""
-    code = BOTH.format(box=[BOX[name] for name in NAMES])
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("alike\n", "")
+    code = BOTH.format(box=[HERE.ends[name] for name in NAMES])
+    assert prints_alike(code)
 
 
 def test_arguments_are_given_once():

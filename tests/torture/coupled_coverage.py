@@ -55,7 +55,7 @@ def rubbed(random):
         radius = middle * np.geomspace(spread**-0.5, spread**0.5, wires)
         g = gamma / (mu * radius)
         direction, size = random.uniform(), random.uniform(*SHARES)
-        xi, relative = kappa.largest[0] * (1.0 - direction), kappa.largest[1] * direction
+        xi, relative = kappa.load_unit[0] * (1.0 - direction), kappa.load_unit[1] * direction
         if np.isfinite(np.max(kappa.share(g, alpha, xi, relative))):
             break
     share = float(np.max(kappa.share(g, alpha, xi, relative)))  # in proportion to the load

@@ -3,7 +3,7 @@
 // ln kappa, a polynomial of x = ln(g/g_touch), y = ln alpha, xi and w = ln(1 + tau_w/mu), where it is
 // known, and how far it may be off.
 const KAPPA = (() => {
-  const {touch, terms, axes, reach, largest, edges, errors, growth} = DATA.coupled;
+  const {touch, terms, axes, reach, loadUnit, edges, errors, growth} = DATA.coupled;
   const {lowest, highest, leastShare} = DATA.coupled;
 
   // The coefficients by the power of the first variable, and so on; a number where none is left.
@@ -50,7 +50,7 @@ const KAPPA = (() => {
 
   // The size of a load, 1 on the outer edge of the campaign, and its direction, 1 for wear alone.
   function loadOf({mu, xi, tau_w}) {
-    const rubbed = xi/largest[0], worn = tau_w/mu/largest[1], size = Math.max(rubbed, worn);
+    const rubbed = xi/loadUnit[0], worn = tau_w/mu/loadUnit[1], size = Math.max(rubbed, worn);
     const lesser = 0.5*Math.min(rubbed, worn)/(size || 1);
     return [size, rubbed > worn ? lesser : 1 - lesser];
   }
@@ -59,8 +59,8 @@ const KAPPA = (() => {
   function at(g, s) {
     const place = placeOf(g, s.alpha), near = inAxes(place), [size, direction] = loadOf(s);
     const reached = reachAt(...near, direction), known = size <= reached;
-    const xi = known ? s.xi : reached*largest[0]*clamped(2 - 2*direction, 0, 1);
-    const wear = known ? s.tau_w/s.mu : reached*largest[1]*clamped(2*direction, 0, 1);
+    const xi = known ? s.xi : reached*loadUnit[0]*clamped(2 - 2*direction, 0, 1);
+    const wear = known ? s.tau_w/s.mu : reached*loadUnit[1]*clamped(2*direction, 0, 1);
     const inside = near.every((one, n) => one === place[n])
       && g >= lowest*(1 - 1e-9) && g <= highest*(1 + 1e-9);
     const variables = [...near, xi, Math.log1p(wear)];
