@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+import surrogate.choosing.candidates
+import surrogate.choosing.catalogue
 import surrogate.choosing.costs
 import surrogate.contact.shipped
 from fe_training.fitting import process as fit_gp
@@ -65,6 +67,11 @@ def coupled(made_up_kappa, installed):
 @pytest.fixture
 def installed(fitted_file, monkeypatch):
     """The fitted models as this installation's own, which never measured what they cost."""
-    monkeypatch.setattr(surrogate.choosing.costs, "models_folder", lambda: fitted_file.parent)
-    monkeypatch.setattr(surrogate.contact.shipped, "models_folder", lambda: fitted_file.parent)
+    for module in (
+        surrogate.choosing.candidates,
+        surrogate.choosing.catalogue,
+        surrogate.choosing.costs,
+        surrogate.contact.shipped,
+    ):
+        monkeypatch.setattr(module, "models_folder", lambda: fitted_file.parent)
     return surrogate.contact.shipped.shipped()

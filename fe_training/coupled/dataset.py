@@ -110,8 +110,16 @@ class CoupledData:
 
     @property
     def converged(self) -> NDArray[np.bool_]:
-        """Rows at the load that was wanted with all evidence within its bounds."""
-        return np.asarray(self["outcome"] == SlidingOutcome.CONVERGED.name)
+        """Rows at the load that was wanted with all evidence within its bounds.
+
+        And with the whole of tau_w wherever there is contact.
+        """
+        return np.asarray((self["outcome"] == SlidingOutcome.CONVERGED.name) & ~self.tapered)
+
+    @property
+    def tapered(self) -> NDArray[np.bool_]:
+        """Rows in which wear rises over some pressure at the ends of the contact."""
+        return np.asarray(self["ramp"] > 0.0)
 
 
 def collected(

@@ -44,6 +44,8 @@ class Base:
         (xi, tau_w/mu) along each ray [-].
     held_out : bool
         Whether no fit sees its rows.
+    taper : float
+        How gently wear rises at the ends of the contact [-].
     """
 
     number: int
@@ -51,6 +53,7 @@ class Base:
     g: float
     rays: tuple[tuple[tuple[float, float], ...], ...]
     held_out: bool
+    taper: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -71,6 +74,8 @@ class Placed:
         Where on a ray rows are made, rising to 1.
     settings, finer : Settings
         The mesh, and that on which some loads are solved a second time.
+    taper : float
+        How gently wear rises at the ends of the contact [-].
     """
 
     bases: tuple[tuple[float, float], ...]
@@ -80,6 +85,7 @@ class Placed:
     shares: tuple[float, ...]
     settings: Settings
     finer: Settings
+    taper: float = 0.0
 
     def rays(self, g: float) -> tuple[tuple[tuple[float, float], ...], ...]:
         """Return the loads along each ray at one g."""
@@ -164,7 +170,7 @@ class CoupledDesign:
 
     def _placed(self) -> list[Base]:
         return [
-            Base(first + n, alpha, g, some.rays(g), self._is_held_out(n))
+            Base(first + n, alpha, g, some.rays(g), self._is_held_out(n), some.taper)
             for first, some in zip(count(FIRST_PLACED, MOST_PLACED), self.placed)
             for n, (alpha, g) in enumerate(some.bases)
         ]
@@ -245,6 +251,7 @@ def _placed(content: Mapping[str, Any], settings: Mapping[str, Any], most: float
         shares=tuple(float(share) for share in content["shares"]),
         settings=Settings(**own),
         finer=Settings(**{**own, **content.get("finer", {})}),
+        taper=float(content.get("taper", 0.0)),
     )
 
 

@@ -84,7 +84,7 @@ def rows_of(data: CoupledData, touch: tuple[float, ...]) -> FitRows:
         noise = (_LEFT * np.abs(values - sums)) ** 2
         usable = np.isfinite(noise) & (data.balance_error <= BALANCE_BOUND)
         usable &= np.abs(values) <= MOST
-    usable &= ~data["touches_tip"] & (friction + wear > 0.0)
+    usable &= ~data["touches_tip"] & ~data.tapered & (friction + wear > 0.0)
     y = np.log(data["alpha"])
     x = np.log(data["target"]) - log_touch(touch, y)
     inputs = np.stack([x, y, friction, np.log1p(wear)], axis=1)

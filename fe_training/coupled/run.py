@@ -102,7 +102,7 @@ def run_base(base: Base, settings: Settings, folder: str, solve: Solve = solve_r
 
     reason = "the engine left this load out"
     try:
-        solve(base.alpha, base.g, base.rays, settings, keep)
+        solve(base.alpha, base.g, base.rays, settings, keep, base.taper)
     except _FATAL:
         raise
     except Exception as error:

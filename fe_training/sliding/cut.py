@@ -5,15 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_training.mechanics.body import Body
 from fe_training.sliding.balance import Support, slip_power, steady_force
 from fe_training.sliding.equilibrium import Problem
 from fe_training.sliding.leg import Leg, Point
-from fe_training.sliding.limit import limit_of
-from fe_training.sliding.path import SlidingStalledError, Steps, attempt, follow
+from fe_training.sliding.path import SlidingStalledError, Steps, follow, settled
 from fe_training.sliding.record import (
     BALANCE_BOUND,
     CREASE_STRETCH,
@@ -42,6 +43,12 @@ _NOTCH_REACH = 10.0
 #: the face where that is below one wire radius [R_w].
 _PIECE = 0.05
 
+#: Steps are in the position of the wire once dJ/dx_w is below this share of what it was at first.
+_FLAT = 0.3
+
+#: A load that fell to this share of the largest one has passed its maximum.
+_FALLEN = 0.99
+
 #: A path ends rather than take a larger body [unknowns].
 MOST_UNKNOWNS = 120_000
 
@@ -54,6 +61,15 @@ class SlidingEndError(RuntimeError):
         super().__init__(reason)
 
 
+class Top(NamedTuple):
+    """Where a path has its largest load."""
+
+    body: Body
+    problem: Problem
+    state: SlidingState
+    point: Point
+
+
 class SlidingCut:
     """A body of one material at one g, with a wire whose friction and wear grow.
 
@@ -63,20 +79,20 @@ class SlidingCut:
         The body; its mesh is adapted on the way.
     state : State
         A frictionless equilibrium.
-    ramp : float
-        Pressure over which wear rises at the ends of the contact, see
-        :class:`fe_training.sliding.shear.Load` [mu].
+    taper : float
+        How gently wear rises at the ends of the contact, see
+        :class:`fe_training.sliding.shear.Load` [-].
     """
 
-    def __init__(self, cut: Cut, state: State, ramp: float = 0.0) -> None:
+    def __init__(self, cut: Cut, state: State, taper: float = 0.0) -> None:
         self.cut = cut
         self._on(state)
         self.state = without_shear(cut.body, state)
-        self.point = Point(self.problem.energy_release_rate(self.state), Load(ramp=ramp))
+        self.point = Point(self.problem.energy_release_rate(self.state), Load(taper=taper))
         arc = observe.contact_arc(cut.body, state)
         self.first_arc, self.first_load = arc.slip_arc, arc.slip_load
-        self.steps, self._clock = 0, time.process_time()
-        self._rates: list[tuple[float, Load]] = []
+        self._top = Top(cut.body, self.problem, self.state, self.point)
+        self.steps, self._rate, self._clock = 0, 0.0, time.process_time()
 
     def _on(self, state: State) -> None:
         """Take up the body of the cut."""
@@ -91,69 +107,73 @@ class SlidingCut:
         SlidingEndError
             If the path ends before.
         """
-        leg, here, rescues = Leg(self.point, end), 0.0, 0
-        self.state = self._settled(self.state, leg, here)
-        while here < 1.0:
+        leg, rescues = Leg(self.point, end), 0
+        start = replace(self.state, control=None, share=0.0)
+        self._take(settled(self.problem, start, leg), leg)
+        self._rate = self._rate or abs(self.state.position_rate)
+        while self.state.share < 1.0:
             try:
-                for share, state in follow(self.problem, self.state, leg, steps, here):
-                    here, self.state, self.point, rescues = share, state, leg.at(share), 0
-                    self._rates.append((state.position_rate, self.point.load))
+                for state in follow(self.problem, self.state, leg, steps, _FLAT * self._rate):
+                    rescues = 0
                     self.steps += 1
+                    self._take(state, leg)
                     self._check()
-                    adapted = self._adapted(leg, here)
-                    yield here
+                    adapted = self._adapted(leg)
+                    yield self.state.share
                     if adapted:
                         break
             except SlidingStalledError as error:
                 if rescues == len(_RESCUE_SHARES):
-                    raise self._ended(error) from None
-                self._rescue(leg, here, _RESCUE_SHARES[rescues], error)
+                    raise self._stalled(error) from None
+                self._rescue(leg, _RESCUE_SHARES[rescues], error)
                 rescues += 1
+
+    def _take(self, state: SlidingState, leg: Leg) -> None:
+        """Take up an equilibrium on a leg, and remember that of the largest load."""
+        self.state, self.point = state, leg.at(state.share)
+        if self._top.point.load.total <= self.point.load.total:
+            self._top = Top(self.cut.body, self.problem, self.state, self.point)
 
     def _check(self) -> None:
         least, angle = self.least_stretch()
+        load, largest = self.point.load, self._top.point.load
         if least < CREASE_STRETCH:
-            load = self.point.load
             raise SlidingEndError(
                 SlidingOutcome.CREASED,
                 f"the face is compressed to {least:.3f} of its length at "
-                f"{np.degrees(angle):.0f} degrees, at xi = {load.friction:.4g} and "
-                f"tau_w/mu = {load.wear:.4g}",
+                f"{np.degrees(angle):.0f} degrees, at {load}",
+            )
+        if load.total < _FALLEN * largest.total:
+            raise SlidingEndError(
+                SlidingOutcome.LIMIT,
+                f"the load has its maximum at {largest}; as the wire went on it fell to {load}",
             )
 
-    def _ended(self, error: SlidingStalledError) -> SlidingEndError:
-        load, limit = self.point.load, limit_of(self._rates)
-        if limit is not None:
-            return SlidingEndError(
-                SlidingOutcome.LIMIT,
-                f"dJ/dx_w vanishes near xi = {limit.friction:.4g}, tau_w/mu = {limit.wear:.4g}; no "
-                f"equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g}",
-            )
+    def _stalled(self, error: SlidingStalledError) -> SlidingEndError:
         folded = error.outcome is NewtonOutcome.CONVERGED
         return SlidingEndError(
             SlidingOutcome.FOLDED if folded else SlidingOutcome.STALLED,
-            f"no equilibrium beyond xi = {load.friction:.4g}, tau_w/mu = {load.wear:.4g} "
-            f"({error.outcome.value})",
+            f"no equilibrium beyond {self.point.load} ({error.outcome.value})",
         )
 
-    def _adapted(self, leg: Leg, here: float) -> bool:
+    def _adapted(self, leg: Leg) -> bool:
         """Refine where det F scatters too much; return whether there was anything to refine."""
         allowed = self.cut.settings.scatter
         if not len(self.cut.scattered(self.state, allowed)):
             return False
-        self._split(leg, here, self.cut.scattered(self.state, _SPLIT_SHARE * allowed))
+        self._split(leg, self.cut.scattered(self.state, _SPLIT_SHARE * allowed))
         return True
 
-    def _rescue(self, leg: Leg, here: float, share: float, error: SlidingStalledError) -> None:
+    def _rescue(self, leg: Leg, share: float, error: SlidingStalledError) -> None:
         split = self.cut.scattered(self.state, share * self.cut.settings.scatter)
         ends = at_ends(self.cut.body, self.state)
         try:
-            self._split(leg, here, np.union1d(split, ends))
+            self._split(leg, np.union1d(split, ends))
         except SlidingStalledError:
-            raise self._ended(error) from None
+            raise self._stalled(error) from None
         self.state = replace(self.state, step=0.0)
 
-    def _split(self, leg: Leg, here: float, elements: NDArray[np.int64]) -> None:
+    def _split(self, leg: Leg, elements: NDArray[np.int64]) -> None:
         """Split elements, and let the body settle."""
         body, carried = refined(self.cut.body, self.state, elements)
         if int(body.free.sum()) > MOST_UNKNOWNS:
@@ -163,20 +183,14 @@ class SlidingCut:
         count = len(body.face)
         assert isinstance(carried, SlidingState)
         start = replace(carried, shear=np.zeros(count), grazing=np.zeros(count, dtype=bool))
-        before = self.cut.body, self.problem
+        before, step = (self.cut.body, self.problem), self.state.step
         self.cut.body = body
         self._on(start)
         try:
-            self.state = replace(self._settled(start, leg, here), step=self.state.step)
+            self._take(replace(settled(self.problem, start, leg), step=step), leg)
         except SlidingStalledError:
             self.cut.body, self.problem = before
             raise
-
-    def _settled(self, start: SlidingState, leg: Leg, here: float) -> SlidingState:
-        settled, outcome = attempt(self.problem, start, leg, here)
-        if settled is None:
-            raise SlidingStalledError(here, outcome)
-        return settled
 
     def least_stretch(self) -> tuple[float, float]:
         """Return the smallest stretch of the face beyond the notch, and its angle [rad].
@@ -248,7 +262,17 @@ class SlidingCut:
         return replace(record, outcome=SlidingOutcome.OUTSIDE_EVIDENCE)
 
     def failure(self, target: Point, error: SlidingEndError) -> SlidingRecord:
-        """Return the record of a configuration before which the path ended: its last state."""
+        """Return the record of a configuration before which the path ended.
+
+        It has the numbers of the largest load that was reached.
+        """
+        top = self._top
+        self.cut.body, self.problem, self.state, self.point = (
+            top.body,
+            top.problem,
+            top.state,
+            top.point,
+        )
         return replace(self.record(target), outcome=error.outcome, reason=str(error))
 
     def _elapsed(self) -> float:

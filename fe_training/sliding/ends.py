@@ -2,6 +2,7 @@
 
 A node that meets the wire without pressure may carry any shear from 0 to ``tau_w l``: only then is
 there always an equilibrium.  Such a node is recognised by going back and forth between the two.
+Wear that is tapered does not jump, and needs none.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ class Ends:
             self.flips += lost | gripped
         changed = wire != before.wire
         self.flips += changed
-        if self.load.wear > 0.0:
+        if self.load.wear > 0.0 and self.load.taper == 0.0:
             between = changed & (self.flips >= _FLIPS) & ~after.plane
             between &= self.flips <= _LAST_FLIPS
             wire, grazing = wire | between, grazing | between

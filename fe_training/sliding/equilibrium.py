@@ -1,11 +1,13 @@
 """Newton's method for the body that slides, its energy release rate held at the toughness.
 
-The position of the wire is one more unknown and ``J = g`` one more equation (bordering).
+The position of the wire is one more unknown and ``J = g`` one more equation (bordering).  Where the
+position no longer decides J it is prescribed, and the load is the unknown.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +20,7 @@ from fe_training.sliding.rows import ChangedRows
 from fe_training.sliding.state import Slide, SlidingState
 from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.equilibrium import RESIDUAL_BOUND, RESIDUAL_GOAL
-from fe_training.solver.state import NewtonOutcome
+from fe_training.solver.state import Control, NewtonOutcome
 
 Array = NDArray[np.float64]
 
@@ -71,9 +73,14 @@ class Problem:
 
 
 def equilibrate(
-    problem: Problem, start: SlidingState, leg: Leg, share: float, max_iterations: int = 15
+    problem: Problem,
+    start: SlidingState,
+    leg: Leg,
+    share: float,
+    position: float | None = None,
+    max_iterations: int = 15,
 ) -> tuple[SlidingState, NewtonOutcome]:
-    """Return the equilibrium at a share of a leg.
+    """Return the equilibrium at a share of a leg, or at a position of the wire.
 
     Parameters
     ----------
@@ -82,7 +89,9 @@ def equilibrate(
         Where the iterations begin.
     leg : Leg
     share : float
-        How far along the leg, 0 to 1.
+        How far along the leg, 0 to 1; with a position only where the iterations begin.
+    position : float, optional
+        x_w, at which the share that belongs to it is looked for [R_w].
     max_iterations : int
         Newton iterations allowed.
 
@@ -94,16 +103,24 @@ def equilibrate(
     outcome : NewtonOutcome
     """
     with np.errstate(all="ignore"):  # a diverging iterate is caught by its residual
-        return _Newton(problem, leg, share).solve(start, max_iterations)
+        return _Newton(problem, leg, share, position).solve(start, max_iterations)
 
 
 class _Newton:
     """Newton's method at one point of a leg; see :func:`equilibrate`."""
 
-    def __init__(self, problem: Problem, leg: Leg, share: float) -> None:
-        self.problem, self.body, self.leg, self.share = problem, problem.body, leg, share
-        self.goal = leg.at(share)
+    def __init__(
+        self, problem: Problem, leg: Leg, share: float, position: float | None = None
+    ) -> None:
+        self.problem, self.body, self.leg, self.position = problem, problem.body, leg, position
+        self.share, self.goal = share, leg.at(share)
         self.ends = Ends(self.body, self.goal.load)
+
+    def _load_by(self, change: float) -> None:
+        """Move along the leg."""
+        self.share += change
+        self.goal = self.leg.at(self.share)
+        self.ends.load = self.goal.load
 
     def solve(self, state: SlidingState, max_iterations: int) -> tuple[SlidingState, NewtonOutcome]:
         for iteration in range(max_iterations):
@@ -119,8 +136,7 @@ class _Newton:
                 if residual is not None:
                     done = replace(
                         state,
-                        tangent=self._tangent(state),
-                        control=None,
+                        **self._onwards(state),
                         residual=residual,
                         position_rate=float(self.per_move),
                         iterations=iteration + 1,
@@ -137,18 +153,33 @@ class _Newton:
         self.per_load = self.problem.rate(lin.sliding, self.grow)
         return newton
 
-    def _tangent(self, state: SlidingState) -> SlidingState:
-        """Return the derivative of the state to the share of the leg."""
-        way = (self.leg.toughening(self.share) - self.per_load) / self.per_move
-        return self.grow.plus(self.move, way).as_tangent(state)
+    def _onwards(self, state: SlidingState) -> dict[str, Any]:
+        """Return the derivative of the state to the share of the leg or to the position."""
+        lacking = self.leg.toughening(self.share) - self.per_load
+        if self.position is None:
+            slide, control = self.grow.plus(self.move, lacking / self.per_move), None
+            pace = 1.0
+        else:
+            pace, control = float(self.per_move / lacking), Control.POSITION
+            slide = self.move.plus(self.grow, pace)
+        tangent = slide.as_tangent(state)
+        return {"tangent": tangent, "control": control, "share": self.share, "pace": pace}
 
     def _missing(self, state: SlidingState) -> float:
         return self.goal.g - self.problem.energy_release_rate(state)
 
     def _stepped(self, state: SlidingState, newton: Slide) -> SlidingState:
         """Return the state after a step that meets J = g."""
-        change = (self._missing(state) - self.problem.rate(state, newton)) / self.per_move
-        return self.ends.updated(newton.plus(self.move, change).applied(state))
+        change = self._missing(state) - self.problem.rate(state, newton)
+        if self.position is None:
+            step = newton.plus(self.move, float(change / self.per_move))
+        else:
+            move = self.position - state.centre[0]
+            lacking = self.leg.toughening(self.share) - self.per_load
+            load = float((self.per_move * move - change) / lacking)
+            step = newton.plus(self.move, move).plus(self.grow, load)
+            self._load_by(load)
+        return self.ends.updated(step.applied(state))
 
     def _corrected(
         self, lin: SlidingLinearisation, state: SlidingState, previous: float

@@ -1,9 +1,14 @@
-"""Following a leg: predictor along the tangent, step control."""
+"""Following a leg: predictor along the tangent, step control.
+
+Steps are in the load, until the position of the wire hardly decides J any more: from there on they
+are in the position, which goes on where the load has a maximum.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import copysign
 
 from fe_training.mechanics.active_set import ActiveSet
 from fe_training.sliding.equilibrium import Problem, equilibrate
@@ -11,7 +16,7 @@ from fe_training.sliding.leg import Leg
 from fe_training.sliding.state import SlidingState
 from fe_training.solver.path import LEAST_DETERMINANT, least_determinant
 from fe_training.solver.predictor import moved_around, share_step, will_touch
-from fe_training.solver.state import NewtonOutcome
+from fe_training.solver.state import Control, NewtonOutcome
 
 #: Nodes that may meet or leave the wire in one step, relative to those that touch it.
 _SHARE = 0.15
@@ -43,6 +48,37 @@ class Steps:
     smallest: float = 1e-4
 
 
+#: Sizes of steps in the position of the wire [R_w].
+_IN_POSITION = Steps(first=0.05, largest=0.5, smallest=1e-4)
+
+
+def by_position(state: SlidingState) -> SlidingState:
+    """Return a state whose tangent and steps are by the wire's position instead of the load."""
+    t = state.tangent
+    if t is None or state.control is Control.POSITION:
+        return state
+    assert isinstance(t, SlidingState)
+    rate = float(t.centre[0])
+    along = replace(
+        t,
+        u=t.u / rate,
+        p=t.p / rate,
+        centre=t.centre / rate,
+        force=t.force / rate,
+        shear=t.shear / rate,
+    )
+    heading = state.heading or copysign(1.0, rate)
+    step = heading * (abs(state.step * rate) or _IN_POSITION.first)
+    return replace(
+        state,
+        tangent=along,
+        control=Control.POSITION,
+        pace=1.0 / rate,
+        step=step,
+        heading=heading,
+    )
+
+
 def predicted(problem: Problem, state: SlidingState, step: float) -> SlidingState:
     """Return the state moved along its tangent."""
     if state.tangent is None or step == 0.0:
@@ -59,10 +95,14 @@ def predicted(problem: Problem, state: SlidingState, step: float) -> SlidingStat
 
 
 def attempt(
-    problem: Problem, start: SlidingState, leg: Leg, share: float
+    problem: Problem,
+    start: SlidingState,
+    leg: Leg,
+    share: float,
+    position: float | None = None,
 ) -> tuple[SlidingState | None, NewtonOutcome]:
-    """Return the equilibrium at a share of a leg, or None if there is none that is sound."""
-    reached, outcome = equilibrate(problem, start, leg, share)
+    """Return the equilibrium at a share of a leg or at a position, or None if none is sound."""
+    reached, outcome = equilibrate(problem, start, leg, share, position)
     if outcome is not NewtonOutcome.CONVERGED:
         return None, outcome
     if least_determinant(problem.body, reached, problem.body.beyond_notch) < LEAST_DETERMINANT:
@@ -70,42 +110,81 @@ def attempt(
     return reached, outcome
 
 
+def settled(problem: Problem, start: SlidingState, leg: Leg) -> SlidingState:
+    """Return the equilibrium where a state is on its leg, by what its steps are in.
+
+    Raises
+    ------
+    SlidingStalledError
+    """
+    position = float(start.centre[0]) if start.control is Control.POSITION else None
+    reached, outcome = attempt(problem, start, leg, start.share, position)
+    if reached is None:
+        raise SlidingStalledError(start.share, outcome)
+    return reached
+
+
 def follow(
     problem: Problem,
     state: SlidingState,
     leg: Leg,
     steps: Steps | None = None,
-    here: float = 0.0,
-) -> Iterator[tuple[float, SlidingState]]:
-    """Yield shares and equilibria along a leg, the last of them at its end.
+    flat: float = 0.0,
+) -> Iterator[SlidingState]:
+    """Yield equilibria along a leg, the last of them at its end.
 
     Parameters
     ----------
     problem : Problem
     state : SlidingState
-        The equilibrium at `here`, with its tangent along the leg.
+        An equilibrium on the leg, with its tangent along it.
     leg : Leg
     steps : Steps
-    here : float
+    flat : float
+        dJ/dx_w below which steps are in the position of the wire [mu].
 
     Raises
     ------
     SlidingStalledError
     """
     steps = steps or Steps()
-    size = state.step or steps.first
-    while here < 1.0:
-        step = min(size, share_step(problem.body, state, 1.0, _SHARE)) if state.tangent else size
-        step = max(step, steps.smallest)
-        there = 1.0 if here + 1.2 * step > 1.0 else here + step
-        start = predicted(problem, state, there - here)
-        reached, outcome = attempt(problem, start, leg, there)
-        if reached is None:
-            size = 0.5 * min(size, there - here)
-            if size < steps.smallest:
-                raise SlidingStalledError(there, outcome)
-            continue
-        if reached.iterations <= _QUICK:
-            size = min(size * _GROWTH, steps.largest)
-        state, here = replace(reached, step=size), there
-        yield here, state
+    while state.share < 1.0:
+        if abs(state.position_rate) < flat:
+            state = by_position(state)
+        state = _next(problem, state, leg, _IN_POSITION if state.control else steps)
+        yield state
+
+
+def _next(problem: Problem, state: SlidingState, leg: Leg, steps: Steps) -> SlidingState:
+    """Return the next equilibrium along a leg, with the size of the step after it."""
+    size, sign = abs(state.step) or steps.first, copysign(1.0, state.step or 1.0)
+    reach = share_step(problem.body, state, sign, _SHARE) if state.tangent else size
+    outcome = NewtonOutcome.STALLED
+    while size >= steps.smallest:
+        step = max(min(size, reach), steps.smallest)
+        start, share, position = _ahead(problem, state, sign * step)
+        reached, outcome = attempt(problem, start, leg, share, position)
+        if reached is None or _on_the_other_side(state, reached):
+            size = 0.5 * step
+        elif reached.control is not state.control:
+            return replace(reached, step=0.0)
+        else:
+            grown = _GROWTH if reached.iterations <= _QUICK else 1.0
+            return replace(reached, step=sign * min(grown * size, steps.largest))
+    raise SlidingStalledError(state.share, outcome)
+
+
+def _on_the_other_side(state: SlidingState, reached: SlidingState) -> bool:
+    """Return whether a step in the load led to the branch beyond the maximum of the load."""
+    return reached.control is None and state.position_rate * reached.position_rate < 0.0
+
+
+def _ahead(
+    problem: Problem, state: SlidingState, step: float
+) -> tuple[SlidingState, float, float | None]:
+    """Return a state a step further, or at the end of the leg, its share, and its position."""
+    share = state.share + step * state.pace
+    if share + 0.2 * step * state.pace > 1.0:
+        return predicted(problem, state, (1.0 - state.share) / state.pace), 1.0, None
+    position = None if state.control is None else float(state.centre[0]) + step
+    return predicted(problem, state, step), share, position

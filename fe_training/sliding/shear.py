@@ -35,27 +35,44 @@ class Load:
         Coefficient of friction xi [-].
     wear : float
         Shear stress tau_w of wear, relative to the shear modulus [-].
-    ramp : float
-        Pressure P_0 towards which wear rises from nothing at the ends of the contact, as
-        ``tau_w tanh(P / P_0)`` [mu]; 0 for the full stress wherever there is contact.
+    taper : float
+        How gently wear rises from nothing at the ends of the contact, as ``tau_w tanh(P / P_0)``
+        with ``P_0 = taper tau_w``: near an end it is a friction of 1/taper [-].  0 is the full
+        stress wherever there is contact.
     """
 
     friction: float = 0.0
     wear: float = 0.0
-    ramp: float = 0.0
+    taper: float = 0.0
+
+    @property
+    def total(self) -> float:
+        """A size by which loads of one direction are compared [-]."""
+        return self.friction + self.wear
+
+    def __str__(self) -> str:
+        return f"xi = {self.friction:.4g}, tau_w/mu = {self.wear:.4g}"
+
+    @property
+    def ramp(self) -> float:
+        """The pressure P_0 [mu]."""
+        return self.taper * self.wear
 
     def plus(self, other: Load, factor: float = 1.0) -> Load:
-        """Return this load and a multiple of another one, with the ramp of this one."""
+        """Return this load and a multiple of another one, with the taper of this one."""
         friction = self.friction + factor * other.friction
         return replace(self, friction=friction, wear=self.wear + factor * other.wear)
-
-    def growing(self, growth: Load) -> Load:
-        """Return another load with the ramp of this one."""
-        return replace(growth, ramp=self.ramp)
 
     def on(self, force: Array, length: Array) -> Array:
         """Return the shear forces of nodes with normal forces and lengths [mu R_w]."""
         return self.friction * force + self.wear * length * self._grip(force, length)[0]
+
+    def growth(self, by: Load, force: Array, length: Array) -> Array:
+        """Return how fast these shear forces grow as the load does [mu R_w]."""
+        grip, rise = self._grip(force, length)
+        # P_0 grows with tau_w, which takes from the grip what a lower pressure would
+        wear = length * grip - force * rise
+        return by.friction * force + by.wear * wear
 
     def slopes(self, force: Array, length: Array) -> tuple[Array, Array]:
         """Return the derivatives of the shear forces to normal forces and to lengths."""

@@ -18,7 +18,7 @@ from fe_training.solver.state import State
 from surrogate.errors import InputError
 
 #: Friction and wear that the engine is made for, from 0.
-MOST_FRICTION, MOST_WEAR = 5.0, 100.0
+MOST_FRICTION, MOST_WEAR, MOST_TAPER = 5.0, 100.0, 10.0
 
 _STEPS = Steps(first=0.02, largest=0.5, smallest=1e-2)
 
@@ -34,11 +34,11 @@ def _checked(name: str, value: float, low: float, high: float) -> float:
     return value
 
 
-def _load(friction: float, wear: float, ramp: float = 0.0) -> Load:
+def _load(friction: float, wear: float, taper: float = 0.0) -> Load:
     return Load(
         _checked("friction_coefficient", friction, 0.0, MOST_FRICTION),
         _checked("relative_wear_strength", wear, 0.0, MOST_WEAR),
-        ramp,
+        taper,
     )
 
 
@@ -48,7 +48,7 @@ def solve_rays(
     rays: Sequence[Sequence[tuple[float, float]]],
     settings: Settings | None = None,
     report: Report | None = None,
-    ramp: float = 0.0,
+    taper: float = 0.0,
 ) -> list[SlidingRecord]:
     """Return the configurations along several ways from the frictionless one at one g.
 
@@ -64,8 +64,9 @@ def solve_rays(
         Mesh, body, solver.
     report : callable, optional
         Called with each record as soon as it is finished.
-    ramp : float
-        Pressure over which wear rises at the ends of the contact [mu].
+    taper : float
+        How gently wear rises at the ends of the contact, see
+        :class:`fe_training.sliding.shear.Load` [-].
 
     Returns
     -------
@@ -79,8 +80,8 @@ def solve_rays(
         If a value is outside the range of the engine.
     """
     alpha, g = _checked("alpha", alpha, *ALPHA_RANGE), _checked("g", g, *G_RANGE)
-    ramp = _checked("ramp", ramp, 0.0, 1e3)
-    ways = [[Point(g, _load(*pair, ramp)) for pair in ray] for ray in rays]
+    taper = _checked("taper", taper, 0.0, MOST_TAPER)
+    ways = [[Point(g, _load(*pair, taper)) for pair in ray] for ray in rays]
     records: list[SlidingRecord] = []
 
     def tell(record: SlidingRecord) -> None:
@@ -95,7 +96,7 @@ def solve_rays(
                 tell(_unreached(alpha, point, reason))
             continue
         cut, state = begun
-        _follow(SlidingCut(copy(cut), state, ramp), way, tell)
+        _follow(SlidingCut(copy(cut), state, taper), way, tell)
     return records
 
 
@@ -145,7 +146,7 @@ def solve(
     friction_coefficient: float = 0.0,
     relative_wear_strength: float = 0.0,
     settings: Settings | None = None,
-    ramp: float = 0.0,
+    taper: float = 0.0,
 ) -> SlidingRecord:
     """Return one configuration of a wire that rubs and wears.
 
@@ -161,8 +162,9 @@ def solve(
         tau_w/mu [-].
     settings : Settings, optional
         Mesh, body, solver.
-    ramp : float
-        Pressure over which wear rises at the ends of the contact [mu].
+    taper : float
+        How gently wear rises at the ends of the contact, see
+        :class:`fe_training.sliding.shear.Load` [-].
 
     Returns
     -------
@@ -175,4 +177,4 @@ def solve(
         If a value is outside the range of the engine.
     """
     way = [(friction_coefficient, relative_wear_strength)]
-    return solve_rays(alpha, g, [way], settings, ramp=ramp)[0]
+    return solve_rays(alpha, g, [way], settings, taper=taper)[0]

@@ -28,11 +28,21 @@ class SlidingState(State):
         other, it carries what lies between.
     position_rate : float
         dJ/dx_w at a constant load [mu]; a load that has a maximum has it where this vanishes.
+    share : float
+        How far along its leg the load is; the tangent is the derivative to it, or to the position
+        of the wire where that is the `control`.
+    pace : float
+        Derivative of the share to what the tangent refers to.
+    heading : float
+        Which way the wire moves on steps in its position, 1 or -1; 0 before there was one.
     """
 
     shear: Array = field(default_factory=lambda: np.empty(0))
     grazing: Flags = field(default_factory=lambda: np.empty(0, dtype=bool))
     position_rate: float = np.nan
+    share: float = 0.0
+    pace: float = 1.0
+    heading: float = 0.0
 
 
 def without_shear(body: Body, state: State) -> SlidingState:

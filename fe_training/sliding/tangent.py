@@ -144,7 +144,7 @@ class SlidingLinearisation(Linearisation):
         moving = np.where(shear.grazing, 0.0, self.centre_rate[shear.rows] + shear.force * turning)
         moving += friction * (self.centre_rate[shear.normal_rows] - shear.drag * turning)
         right[shear.rows, 1] = -(moving + wear * self._length_rate)
-        growing = shear.load.growing(growth).on(shear.force, shear.length)
+        growing = shear.load.growth(growth, shear.force, shear.length)
         right[shear.rows, 2] = np.where(shear.grazing, 0.0, -growing)
         self._factorize(solver)
         x, reaction = self._slid(solver, known, right)

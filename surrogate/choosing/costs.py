@@ -1,4 +1,4 @@
-"""What the models cost, as it was measured."""
+"""What the models cost, as it was measured: the order in which they are tried."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def test_a_path_without_an_equilibrium_is_not_drawn(made_up):
     with pytest.raises(InputError, match="no equilibrium to draw"):
         draw_pictures(
             changed(made_up, slice(None), friction=np.nan),
-            SimpleNamespace(largest=LARGEST),
+            SimpleNamespace(load_unit=LARGEST),
             None,
             None,
         )

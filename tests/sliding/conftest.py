@@ -41,7 +41,7 @@ class Sliding:
             self.problem, replace(state, tangent=None, step=0.0), Leg(point, end), 0.0
         )
         assert outcome is NewtonOutcome.CONVERGED
-        *_, (_, last) = follow(self.problem, state, Leg(point, end), Steps(first))
+        *_, last = follow(self.problem, state, Leg(point, end), Steps(first))
         return end, last
 
 

@@ -5,9 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from fe_training.sliding.limit import limit_of
 from fe_training.sliding.record import CREASE_STRETCH, SlidingOutcome
-from fe_training.sliding.shear import Load
 from fe_training.sliding.solve import solve, solve_rays
 from fe_training.solver.cut import Settings
 from fe_training.solver.solve import solve as solve_frictionless
@@ -26,7 +24,7 @@ COARSE = Settings(sectors=14, contact_spacing=0.15, notch_radius=5e-3, outer_rad
         {"relative_wear_strength": 1e300},
         {"g": 0.0},
         {"alpha": 0.5},
-        {"ramp": -1.0},
+        {"taper": -1.0},
     ],
 )
 def test_input_outside_the_range_is_refused_with_its_name(bad):
@@ -58,28 +56,6 @@ def test_a_way_that_ends_says_why_and_keeps_what_it_reached():
         assert not record.is_reached
         # the crease or close to it, whichever is met first on this mesh
         assert record.least_stretch < CREASE_STRETCH + 0.1
-
-
-def falling(*rates):
-    return [(rate, Load(0.1 * i, 0.2 * i)) for i, rate in enumerate(rates, start=1)]
-
-
-def test_a_limit_is_where_the_rate_would_vanish():
-    limit = limit_of(falling(1.0, 0.8, 0.6, 0.4, 0.2))
-    assert (limit.friction, limit.wear) == pytest.approx((0.6, 1.2))
-
-
-@pytest.mark.parametrize(
-    "rates",
-    [
-        (1.0, 0.2),  # too short to tell
-        (1.0, 0.8, 0.6),  # far from 0
-        (1.0, 0.1, 0.2),  # rising
-        (1.0, 0.21, 0.2),  # falling too slowly
-    ],
-)
-def test_other_ends_are_no_limit(rates):
-    assert limit_of(falling(*rates)) is None
 
 
 @pytest.mark.slow

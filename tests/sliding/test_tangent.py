@@ -11,7 +11,7 @@ from fe_training.sliding.shear import Load
 from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.state import NewtonOutcome
 
-LOADS = [Load(0.2, 0.7), Load(0.2, 0.7, ramp=0.2)]
+LOADS = [Load(0.2, 0.7), Load(0.2, 0.7, taper=0.5)]
 LOAD = LOADS[0]
 
 
