@@ -36,6 +36,26 @@ def test_what_is_not_asked_for_is_not_loaded():
     assert ours == {"surrogate.errors", "surrogate.version"}
 
 
+FORCE = """
+import sys
+from surrogate import Scene, cutting_force
+cutting_force(Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0), {model!r})
+print(*sys.modules)
+"""
+
+
+def test_a_force_loads_what_it_needs():
+    by_formula, by_default = (set(loaded(FORCE.format(model=m))) for m in ("eq13", "auto"))
+    assert not by_formula & {
+        "json",
+        "surrogate.contact.shipped",
+        "surrogate.coupling.amplification",
+    }
+    assert "surrogate.contact.table" in by_default
+    unused = {"contact.process", "choosing.common_choice", "choosing.catalogue", "contact.compiled"}
+    assert not by_default & {f"surrogate.{name}" for name in unused}
+
+
 def test_every_public_name_is_there():
     for name in surrogate.__all__:
         assert getattr(surrogate, name) is not None

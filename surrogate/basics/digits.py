@@ -6,7 +6,7 @@ import math
 
 from surrogate.basics.records import UNKNOWN, number
 
-__all__ = ["below_digits", "rounded"]
+__all__ = ["below_digits", "rounded", "rounded_up"]
 
 
 def rounded(value: float, error: float) -> str:
@@ -37,6 +37,18 @@ def below_digits(value: float, error: float) -> bool:
     """
     decimals = _decimals(error)
     return decimals is not None and abs(value) < 0.5 * 10.0**-decimals
+
+
+def rounded_up(error: float) -> str:
+    """Return a number in two digits that is not below the error.
+
+    Examples
+    --------
+    >>> rounded_up(0.01234), rounded_up(0.02)
+    ('0.013', '0.02')
+    """
+    text = f"{error:.1e}"
+    return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"
 
 
 def _decimals(error: float) -> int | None:

@@ -138,7 +138,7 @@ def _in_blocks(
 def product(a: Any, b: Any, c: Any) -> Any:
     """Return a (b c)."""
     inner = b * c
-    if all_normal(inner):
+    if NORMAL <= inner <= LARGEST if type(inner) is float else all_normal(inner):
         return a * inner
     return where_normal(inner, a * inner, scaled((a, b, c), ()))
 
@@ -146,7 +146,7 @@ def product(a: Any, b: Any, c: Any) -> Any:
 def quotient(a: Any, b: Any, c: Any) -> Any:
     """Return a / (b c): infinity where only the divisor is 0, nan where both are."""
     inner = b * c
-    if all_normal(inner):
+    if NORMAL <= inner <= LARGEST if type(inner) is float else all_normal(inner):
         return a / inner
     with np.errstate(all="ignore"):
         return where_normal(inner, np.divide(a, inner), scaled((a,), (b, c)))

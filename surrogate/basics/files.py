@@ -191,7 +191,8 @@ def _array(member: bytes) -> NDArray[Any]:
     between, words = (member[10:end].decode("latin-1").split("'")[i::2] for i in (0, 1))
     *start, shape = [part.strip() for part in between]
     plain = member[:8] == b"\x93NUMPY\1\0" and start == ["{", ":", ",", ": False,"]
-    if not plain or words[1][1:2] not in "fiu" or (shape[:3], shape[-4:]) != (": (", "), }"):
+    bounds = shape[:3], shape[-4:]
+    if not plain or words[1][1:2] not in "fiu" or bounds != (": (", "), }") or "-" in shape:
         return np.lib.format.read_array(io.BytesIO(member), allow_pickle=False)
     lengths = tuple(int(length) for length in shape[3:-4].split(",") if length.strip())
     return np.frombuffer(member, words[1], offset=end).reshape(lengths).copy()

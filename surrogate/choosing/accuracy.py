@@ -149,8 +149,8 @@ def one_model(name: object, rtol: object = None) -> ForceModel:
     tolerance = DEFAULT_RTOL if rtol is None else one_number(RTOL, rtol)
     if not is_auto(name):
         return force_model(name)
+    from surrogate.basics.digits import rounded_up
     from surrogate.choosing.candidates import available
-    from surrogate.choosing.choice import rounded_up
 
     models, bounds = available()
     errors = [bounds.of_force(model.name) for model in models]

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
+from surrogate.basics.digits import rounded_up
 from surrogate.basics.elementwise import exp, expm1, larger, quotient, ratio, taken, where
 from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto import AutomaticTerms, named, terms_of_one
 from surrogate.choosing.candidates import OUTSIDE, Candidates, candidates
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import force_bound
 from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.checks import INFINITY, SMALLEST, FloatOrArray
+from surrogate.basics.digits import rounded_up
 from surrogate.choosing.candidates import FREE, Candidates, available, candidates
 from surrogate.contact.base import ForceModel
 from surrogate.contact.coordinates import QUANTITIES
@@ -34,7 +35,6 @@ __all__ = [
     "chosen_terms",
     "require_accuracy",
     "require_met",
-    "rounded_up",
 ]
 
 Array = NDArray[np.float64]
@@ -292,15 +292,3 @@ def require_accuracy(model: ForceModel, g: FloatOrArray, alpha: FloatOrArray, rt
             f"rtol must be met by the model, but {model.name!r} may be off by {error:.2g} there, "
             f"more than rtol = {rtol:g}; choose model='auto' or a larger rtol."
         )
-
-
-def rounded_up(error: float) -> str:
-    """Return a number in two digits that is not below the error.
-
-    Examples
-    --------
-    >>> rounded_up(0.01234), rounded_up(0.02)
-    ('0.013', '0.02')
-    """
-    text = f"{error:.1e}"
-    return f"{float(text if float(text) >= error else f'{1.05 * error:.1e}'):g}"

@@ -10,7 +10,7 @@ from typing import Any
 from surrogate.basics.checks import one_number
 from surrogate.basics.files import written_whole
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import SLIP
+from surrogate.choosing.laws import COUPLED, SLIP
 from surrogate.cli.common import Record, add_law_option, add_model_option, print_answer, quantity
 from surrogate.errors import InputError
 from surrogate.prepared.preparing import prepare
@@ -26,7 +26,8 @@ DESCRIPTION = "The force as a program of its own: C, JavaScript, MATLAB/Octave o
 EXAMPLES = """\
 A quantity with one value is fixed, one with two varies between them: the program is a function of
 what varies. It checks its ranges and tests itself; its first lines say what it is and how far it
-may be off. --table writes the table itself instead, a function of all six quantities.
+may be off. --table writes the table itself instead, a function of all six quantities; with --law
+coupled it answers up to the friction and wear that solutions reach, and nothing beyond.
 
 Without --law the program has one law of friction and wear for all of its ranges: the cheapest that
 is known to be within --rtol (2 %) of solutions in which the wire rubs. Where none is known, as for
@@ -85,7 +86,8 @@ def _table(options: argparse.Namespace) -> tuple[str, Record]:
             f"--table must stand without quantities, but --{set_too[0].replace('_', '-')} was "
             "given; leave out one of them."
         )
-    names = "A* and B*" if options.law == SLIP else "A and B"
+    names = "A* and B*" if options.law in (SLIP, COUPLED) else "A and B"
+    names += ", times kappa" if options.law == COUPLED else ""
     what: Record = {"what": f"the table of {names}", "relative_error": math.nan, "warnings": []}
     return whole_table(options.format, options.law), what
 

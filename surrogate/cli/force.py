@@ -10,12 +10,12 @@ from textwrap import fill
 import numpy as np
 
 from surrogate.basics.checks import FloatOrArray
+from surrogate.basics.digits import rounded_up
 from surrogate.basics.picture_form import picture_form, pictures_as
 from surrogate.basics.records import UNKNOWN, number, table
 from surrogate.basics.records import share as share_in_words
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.catalogue import models
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import LAWS, PROJECTED
 from surrogate.cli.common import (
     Record,

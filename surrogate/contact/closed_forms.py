@@ -16,6 +16,7 @@ import numpy as np
 
 from surrogate.basics.checks import STIFFENING_EXPONENT, Quantity
 from surrogate.basics.elementwise import (
+    all_normal,
     exp,
     log,
     product,
@@ -143,6 +144,8 @@ def _log_g(mu: Any, gamma: Any, radius: Any) -> Any:
     """Return ln g, from g itself where that is in the range of numbers."""
     with np.errstate(all="ignore"):
         g = quotient(gamma, mu, radius)
+        if all_normal(g):
+            return log(g)
         return where_normal(g, log(g), log(gamma) - (log(mu) + log(radius)))
 
 

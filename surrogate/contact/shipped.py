@@ -302,8 +302,8 @@ def shipped() -> Fitted:
     InputError
         If there are none, or their file is damaged.
     """
-    named, folder = location()
-    return read(_file_at(named)) if named else _in(folder)
+    named = _in_use or os.environ.get(VARIABLE)
+    return read(_file_at(named)) if named else _in(models_folder())
 
 
 def folder_in_use() -> str:

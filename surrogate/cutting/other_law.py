@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.basics.digits import rounded_up
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import COUPLED
 from surrogate.errors import OtherLawWarning
 from surrogate.scene import Scene

@@ -8,10 +8,9 @@ from textwrap import wrap
 
 import numpy as np
 
-from surrogate.basics.digits import below_digits, rounded
+from surrogate.basics.digits import below_digits, rounded, rounded_up
 from surrogate.basics.records import number
 from surrogate.choosing.by_name import FITTED_NAMES
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate

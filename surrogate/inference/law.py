@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from surrogate.basics.checks import shown
+from surrogate.basics.digits import rounded_up
 from surrogate.basics.elementwise import ratio
 from surrogate.choosing.accuracy import contact_bounds, one_model
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import COUPLED, LAWS, PROJECTED, SLIP, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.contact.fitted import FittedModel

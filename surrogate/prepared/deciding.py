@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from surrogate.basics.digits import rounded_up
 from surrogate.choosing.accuracy import DEFAULT_RTOL
 from surrogate.choosing.auto_law import amplification_of_models
 from surrogate.choosing.by_name import force_model
 from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, Candidates, candidates
-from surrogate.choosing.choice import rounded_up
 from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.contact.closed_forms import FORCE_MODELS, ClosedForm
 from surrogate.contact.domain import Domain, g_range

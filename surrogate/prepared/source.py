@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.contact.coordinates import log_touch
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP
+from surrogate.coupling.amplification import Amplification, edge_of
 from surrogate.errors import InputError
 from surrogate.prepared.dialects import DIALECTS, Dialect
-from surrogate.prepared.plan import GAMMA, MU, RADIUS, WITHOUT_SHEAR, Plan
+from surrogate.prepared.plan import GAMMA, MU, RADIUS, WEAR, WITHOUT_SHEAR, XI, Plan
 from surrogate.prepared.statements import (
     COEFFICIENTS,
     arrays_of,
@@ -23,6 +25,8 @@ from surrogate.prepared.statements import (
     force_statements,
     highest_log_g,
     leaves_table,
+    reach_array,
+    reach_statements,
 )
 from surrogate.prepared.table_source import table_part
 from surrogate.scene import QUANTITIES
@@ -63,7 +67,7 @@ def source_of(force: Any, language: str) -> str:
         "names": ", ".join(plan.varying),
         "checks": "\n".join(_checks(plan, dialect)),
         "arrays": "\n".join(arrays_of(plan, dialect)),
-        "table": table_part(plan.table, _functions(plan), dialect) if needs_g else "",
+        "table": _table(plan, dialect) if needs_g else "",
         "cases": _cases(force, dialect),
         "calls": _calls(plan, dialect),
         "columns": str(len(plan.varying) + 1),
@@ -78,6 +82,13 @@ def source_of(force: Any, language: str) -> str:
     for key, value in parts.items():
         text = text.replace(f"<<{key}>>", value)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
+
+
+def _table(plan: Plan, dialect: Dialect) -> str:
+    table = table_part(plan.table, _functions(plan), dialect)
+    if plan.kappa is None or not leaves_table(plan):
+        return table
+    return f"{table}\n\n{reach_array(plan.kappa, dialect)}"
 
 
 def _functions(plan: Plan) -> dict[str, str]:
@@ -96,6 +107,8 @@ def _about(force: Any, dialect: Dialect) -> list[str]:
     fixed = [f"  {name} = {value!r} [{_UNITS[name]}]" for name, value in plan.fixed.items()]
     models = ", ".join(f"{term} by {model}" for term, model in force.terms.items())
     where = ["g = toughness/(shear_modulus*wire_radius) in the domain of the table, too."]
+    if plan.kappa is not None:
+        where += ["Friction and wear up to what coupled solutions reach, short of the tip's touch."]
     return [
         f"Steady cutting force F_ss/T [N/m], exported by wirecut {__version__}. MIT licence.",
         f"Law: {_LAWS[plan.law]}",
@@ -147,12 +160,19 @@ def _checks(plan: Plan, dialect: Dialect) -> list[str]:
         low, g = plan.table.limits.log_g[0], f"{dialect.log}({GAMMA}/({MU}*{RADIUS}))"
         high = highest_log_g(plan.table.limits, dialect)
         conditions.append(f"{g} >= {low - CLOSE!r} {joined} {g} <= {high} + {CLOSE!r}")
-    return [
-        _UNLESS[dialect.name].format(condition=condition, number=number)
-        for number, condition in enumerate(conditions, start=1)
-    ]
+    unless = _UNLESS[dialect.name]
+    lines = [unless.format(condition=c, number=n) for n, c in enumerate(conditions, start=1)]
+    if plan.kappa is not None and leaves_table(plan):
+        statements, within = reach_statements(plan.kappa, dialect)
+        condition = f" {joined} ".join(within)
+        unloaded = f"{XI} == 0.0 {joined} {WEAR} == 0.0"
+        either = f"({unloaded}) {_OR[dialect.name]} ({condition})"
+        lines += [f"  {'  ' * (dialect.name == 'python')}{line}" for line in statements]
+        lines += [unless.format(condition=either, number=len(conditions) + 1)]
+    return lines
 
 
+_OR = {"c": "||", "javascript": "||", "matlab": "||", "python": "or"}
 _AND = {"c": "&&", "javascript": "&&", "matlab": "&&", "python": "and"}
 _UNLESS = {
     "c": "  if (!({condition})) return {number};",
@@ -164,7 +184,7 @@ _UNLESS = {
 
 def _cases(force: Any, dialect: Dialect) -> str:
     plan = force.plan
-    rows = _whole_cases(plan.table.limits) if leaves_table(plan) else cases_of(plan)
+    rows = _whole_cases(plan) if leaves_table(plan) else cases_of(plan)
     expected = [_value(force, row) for row in rows]
     numbers = [[*row.tolist(), value] for row, value in zip(rows, expected, strict=True)]
     flat = [value for row in numbers for value in row]
@@ -177,13 +197,32 @@ def _value(force: Any, row: Any) -> float:
     )
 
 
-def _whole_cases(limits: Any) -> Any:
+def _whole_cases(plan: Plan) -> Any:
     """Return ten scenes in the domain of the table, near its ends and in the middle."""
+    assert plan.table is not None
+    if plan.kappa is not None:
+        return _loaded_cases(plan.kappa)
+    limits = plan.table.limits
     alpha = np.linspace(limits.alpha[0], limits.alpha[1], 10)[[3, 0, 6, 9, 1, 8, 2, 5, 7, 4]]
     lowest, highest = 1.001 * limits.g[0], 0.999 * limits.highest_g(alpha)
     g = lowest * (highest / lowest) ** np.linspace(0.0, 1.0, 10)
     mu, radius, one = np.linspace(300.0, 3000.0, 10), np.geomspace(3e-3, 3e-5, 10), np.ones(10)
     return np.array([mu, g * mu * radius, radius, 0.1 * one, 3.0 * mu, alpha]).T
+
+
+def _loaded_cases(kappa: Amplification) -> Any:
+    """Return ten scenes whose loads are a half of the largest ones that are known."""
+    (x, y, _), shares = kappa.axes, np.linspace(0.02, 0.98, 10)
+    row = (y[0] + shares * (y[-1] - y[0]))[[3, 0, 6, 9, 1, 8, 2, 5, 7, 4]]
+    low = np.maximum(x[0], np.log(kappa.lowest) - log_touch(kappa.touch, row))
+    high = np.minimum(x[-1], np.log(kappa.highest) - log_touch(kappa.touch, row))
+    at = low + shares * (high - low)
+    direction = shares[[5, 2, 8, 0, 9, 4, 1, 7, 3, 6]]
+    half = 0.5 * kappa.reach_at(at, row, direction)
+    xi, relative = (half * part for part in edge_of(direction, kappa.load_unit))
+    mu, radius = np.linspace(300.0, 3000.0, 10), np.geomspace(3e-3, 3e-5, 10)
+    g, alpha = np.exp(at + log_touch(kappa.touch, row)), np.exp(row)
+    return np.array([mu, g * mu * radius, radius, xi, relative * mu, alpha]).T
 
 
 def _calls(plan: Plan, dialect: Dialect) -> str:

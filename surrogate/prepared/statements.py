@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 
 from surrogate.contact.domain import Domain
+from surrogate.coupling.amplification import Amplification
 from surrogate.prepared.dialects import Dialect
 from surrogate.prepared.line import Line
 from surrogate.prepared.plan import ALPHA, ARC, GAMMA, LOAD, MU, RADIUS, WEAR, XI, Plan
@@ -23,6 +24,8 @@ __all__ = [
     "force_statements",
     "highest_log_g",
     "leaves_table",
+    "reach_array",
+    "reach_statements",
 ]
 
 COEFFICIENTS = {ARC: "ARC", LOAD: "LOAD"}
@@ -167,6 +170,63 @@ def _place(line: Line, dialect: Dialect) -> list[str]:
 def _cubic(dialect: Dialect, array: str) -> str:
     a, b, c, d = (dialect.item(array, f"4*piece + {k}") for k in range(4))
     return f"{a} + t*({b} + t*({c} + t*{d}))"
+
+
+_REACH = "REACH"
+_CALLED = "reach_of_loads"
+
+
+def reach_array(kappa: Amplification, dialect: Dialect) -> str:
+    """Return the largest known loads: an array, in MATLAB a function that returns it."""
+    values = kappa.reach.ravel().tolist()
+    if not dialect.first:
+        return dialect.numbers(_REACH, values)
+    return f"function {_REACH} = {_CALLED}()\n{dialect.numbers(_REACH, values)}\nend\n"
+
+
+def reach_statements(kappa: Amplification, dialect: Dialect) -> tuple[list[str], list[str]]:
+    """Return statements, and conditions after them: solutions reach to g, alpha and the load.
+
+    Between its nodes the reach is linear in x, in y and in the direction of the load.
+    """
+    x, y, _ = ((float(axis[0]), float(axis[-1])) for axis in kappa.axes)
+    units = kappa.load_unit
+    log_g, row = f"{dialect.log}({GAMMA}/({MU}*{RADIUS}))", f"{dialect.log}({ALPHA})"
+    numbers = {
+        "x_load": f"{log_g} - ({_polynomial(list(kappa.touch), [row])})",
+        "rubbed": f"{XI}/{units[0]!r}",
+        "worn": f"{WEAR}/{MU}/{units[1]!r}",
+        "size": f"{dialect.highest}(rubbed, worn)",
+        "direction": f"0.5 + 0.5*(worn - rubbed)/{dialect.highest}(size, 1e-300)",
+    }
+    lines = [f"{_REACH} = {_CALLED}(){dialect.end}"] if dialect.first else []
+    lines += [_let(dialect, name, expression) for name, expression in numbers.items()]
+    for name, place, axis in zip("ijk", ("x_load", row, "direction"), kappa.axes, strict=True):
+        along = f"({place} - ({float(axis[0])!r}))/{float(axis[1] - axis[0])!r}"
+        lines.append(_let(dialect, f"in_{name}", along))
+        number = (
+            f"{dialect.highest}(0, {dialect.lowest}({len(axis) - 2}, {dialect.floor}(in_{name})))"
+        )
+        cast = "(int)" if dialect.name == "c" else ""
+        lines.append(f"{dialect.integer}{name} = {cast}{number}{dialect.end}")
+        lines.append(f"in_{name} = in_{name} - {name}{dialect.end}")
+    lines.append(_let(dialect, "reach", _between_nodes(kappa.reach.shape, dialect)))
+    low, high = (float(np.log(end)) for end in (kappa.lowest, kappa.highest))
+    ends = [("x_load", *x), (row, *y), (log_g, low, high)]
+    inside = [f"{what} >= {a - 1e-9!r}" for what, a, _ in ends]
+    inside += [f"{what} <= {b + 1e-9!r}" for what, _, b in ends]
+    return lines, [*inside, "size <= reach"]
+
+
+def _between_nodes(shape: tuple[int, ...], dialect: Dialect) -> str:
+    """Return the reach at a place between its eight nearest nodes."""
+    terms = []
+    for corner in product((0, 1), repeat=3):
+        shares = [f"in_{n}" if one else f"(1.0 - in_{n})" for n, one in zip("ijk", corner)]  # noqa: B905
+        i, j, k = (f"({n} + {one})" for n, one in zip("ijk", corner))  # noqa: B905
+        index = f"({i}*{shape[1]} + {j})*{shape[2]} + {k}"
+        terms.append("*".join([*shares, dialect.item(_REACH, index)]))
+    return " + ".join(terms)
 
 
 def cases_of(plan: Plan, count: int = 10) -> np.ndarray:

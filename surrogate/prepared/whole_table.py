@@ -7,9 +7,9 @@ from typing import Any
 
 from surrogate.choosing.by_name import AUTO, force_model
 from surrogate.choosing.candidates import FREE, OUTSIDE, TERMS, candidates
-from surrogate.choosing.laws import COUPLED, PROJECTED, of_law
+from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP, of_law
+from surrogate.contact.bounds import interval
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.errors import InputError
 from surrogate.prepared.deciding import data_of
 from surrogate.prepared.function import ForceFunction
 from surrogate.prepared.plan import ALPHA, GAMMA, MU, RADIUS, Plan
@@ -27,13 +27,14 @@ def whole_table(language: str, law: str = AUTO) -> str:
     language : str
         "c", "javascript", "matlab" or "python".
     law : str, default "auto"
-        The law of dissipation, "projected" or "slip"; "auto" for "projected", as no other one is
-        known all over the table.
+        The law of dissipation, "projected", "slip" or "coupled"; "auto" for "projected", as no
+        other one is known all over the table. Under "coupled" the program answers up to the loads
+        that coupled solutions reach, and no number beyond them.
 
     Raises
     ------
     InputError
-        If there is no such language or law, the law is "coupled", or there is no table.
+        If there is no such language or law, or there is no table.
 
     Examples
     --------
@@ -41,19 +42,24 @@ def whole_table(language: str, law: str = AUTO) -> str:
     1
     """
     law = PROJECTED if isinstance(law, str) and law == AUTO else law
-    if isinstance(law, str) and law == COUPLED:
-        raise InputError(
-            "the whole table must be of the law 'projected' or 'slip', as 'coupled' is known for "
-            "some loads only; choose one of them, or state ranges."
-        )
-    table: Any = of_law(force_model(OUTSIDE), law)
+    model: Any = of_law(force_model(OUTSIDE), law)
+    kappa = model.amplification if law == COUPLED else None
+    table = model if kappa is None else model.slip
     form: Any = FORCE_MODELS[FREE]
-    plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law)
-    return ForceFunction(plan, math.nan, data_of(table), _error(law)).source(language)
+    plan = Plan(NAMES, _WIDE | {ALPHA: table.limits.alpha}, form, table, TERMS, law, kappa)
+    error = _error(law, kappa)
+    told = math.nan if kappa is None else error
+    return ForceFunction(plan, told, data_of(table), error).source(language)
 
 
-def _error(law: str) -> float:
-    """Return the bound of the force's error all over the domain; nan where there is none."""
+def _error(law: str, kappa: Any) -> float:
+    """Return the bound of the force's error all over what is answered; nan where there is none."""
+    if kappa is not None:
+        bounds, (low, *_, high) = candidates(law=SLIP).bounds, kappa.axes[0]
+        first, last = (interval(bounds.g, math.exp(x)) for x in (low, high))
+        rows = slice(first, last + 1)
+        worst = max(float(each[rows].max()) for each in bounds.errors[OUTSIDE].values())
+        return math.expm1(worst + float(kappa.errors.max())) if worst < math.inf else math.nan
     if law != PROJECTED:
         return math.nan
     known = candidates()

@@ -25,6 +25,28 @@ def test_a_sound_header_is_read():
     np.testing.assert_array_equal(read_archive(member(sound))["x"], [0.0])
 
 
+ARRAYS = {
+    "numbers": np.arange(3),
+    "single": np.linspace(0.0, 1.0, 6, dtype=np.float32).reshape(2, 3),
+    "alone": np.array(2.5),
+    "empty": np.zeros((0, 3)),
+    "other ends first": np.array([1, 515], ">u2"),
+    "columns first": np.asfortranarray(np.arange(6.0).reshape(2, 3)),
+    "words": np.array(["a", "bc"]),
+    "truth": np.array([True, False]),
+}
+
+
+def test_arrays_of_all_kinds_come_back():
+    buffer = io.BytesIO()
+    np.savez(buffer, **ARRAYS)
+    read = read_archive(buffer.getvalue())
+    assert read.keys() == ARRAYS.keys()
+    for name, array in ARRAYS.items():
+        assert (read[name].dtype, read[name].shape) == (array.dtype, array.shape)
+        np.testing.assert_array_equal(read[name], array)
+
+
 @pytest.mark.parametrize(
     "header",
     [
@@ -32,6 +54,10 @@ def test_a_sound_header_is_read():
         "{'descr': '|O', 'fortran_order': False, 'shape': (1,)}\n",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (10**9,)}\n",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (-1,)}\n",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (-1,), }\n",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }\n",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (1x,), }\n",
+        "{'descr': '<f7', 'fortran_order': False, 'shape': (1,), }\n",
         "((((((((((\n",
         "",
     ],

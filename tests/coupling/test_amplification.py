@@ -36,6 +36,10 @@ def test_a_polynomial_is_the_sum_of_its_terms():
     made = Polynomial(powers, coefficients)
     assert made(*at) == pytest.approx(terms @ coefficients, rel=1e-12)
     assert [made(*column) for column in at.T.tolist()] == made(*at).tolist()
+    for floats in range(16):  # some of them numbers, the others arrays
+        mixed = [float(row[0]) if floats >> i & 1 else row for i, row in enumerate(at)]
+        whole = [np.full(50, each) if isinstance(each, float) else each for each in mixed]
+        assert np.array_equal(np.full(50, made(*mixed)), made(*whole))
     for i, derivative in enumerate(made.derivatives):
         up, down = at.copy(), at.copy()
         up[i] += 1e-6

@@ -11,9 +11,14 @@ import pytest
 
 from surrogate import InputError, Scene, cutting_force, prepare
 from surrogate.choosing.candidates import candidates
+from surrogate.coupling.amplification import edge_of
+from surrogate.coupling.shipped import amplification
 from surrogate.prepared.source import LANGUAGES
 from surrogate.prepared.whole_table import whole_table
 
+#: By which ln kappa is off in plain powers, as Python has it beside the centred ones of programs:
+#: its terms, of which each loses some 2**-53, are up to 1e6 together.
+PLAIN = 1e-9
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
 BOX = {
     "toughness": (0.8, 3.0),
@@ -179,6 +184,30 @@ def test_the_whole_table(language, law, tmp_path):
     np.testing.assert_allclose(forces[:300], there, rtol=1e-12)
     if language == "javascript":
         assert len(text) < 250_000
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_whole_table_of_the_coupled_law_ends_where_its_solutions_do(language, tmp_path):
+    random, kappa = np.random.default_rng(6), amplification()
+    alpha, share = random.uniform(2.0, 9.0, 400), random.uniform(0.0, 1.5, 400)
+    low, high = np.log(kappa.lowest), np.log(kappa.highest)
+    g = np.exp(random.uniform(low - 0.3, high + 0.3, 400))
+    direction = random.integers(0, 5, 400) / 4.0
+    xi, relative = edge_of(direction, kappa.load_unit)
+    reach = share / np.maximum(kappa.share(g, alpha, xi, relative), 1e-3)
+    reach[:20] = 0.0
+    mu, radius = random.uniform(300.0, 3000.0, 400), random.uniform(3e-5, 3e-3, 400)
+    scene = Scene(mu, g * mu * radius, radius, reach * xi, reach * relative * mu, alpha)
+    expected = cutting_force(scene, "table", law="coupled", outside="nan")
+    rows = np.array(scene.values()).T.tolist()
+    forces, codes, wrong = RUNNERS[language](whole_table(language, "coupled"), rows, tmp_path)
+    assert wrong == 0
+    known = expected.in_domain
+    assert 100 < np.count_nonzero(known) < 300
+    assert np.array_equal(np.array(codes) == 0, known)
+    assert set(codes) == {0, 7, 8}  # 7 where g leaves the table as well
+    assert np.array_equal(np.isnan(forces), ~known)
+    np.testing.assert_allclose(np.array(forces)[known], expected.total[known], rtol=PLAIN)
 
 
 def test_the_header_tells_what_it_is():
