@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surrogate.basics.checks import one_number, shown
+from surrogate.basics.checks import LAWS, one_number, shown
 from surrogate.basics.elementwise import quotient, ratio, where
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import DomainError, InputError
-from surrogate.scene import LAWS
 
 if TYPE_CHECKING:
     from surrogate.choosing.candidates import Candidates
