@@ -129,7 +129,7 @@ def _draw(folder: Path) -> int:
     """Draw the pictures; the data set is that beside the models in use."""
     from fe_training.campaign.dataset import load_campaign
     from fe_training.coupled.dataset import read_coupled
-    from fe_training.coupled.figures import PICTURES, draw_pictures
+    from fe_training.coupled.pictures.solutions import PICTURES, draw_pictures
     from surrogate.contact.shipped import folder_in_use
     from surrogate.coupling.shipped import amplification
 
