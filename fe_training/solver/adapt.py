@@ -8,6 +8,7 @@ exactly, since the new mesh is nested in the old one.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -53,19 +54,10 @@ def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
     finer = body.on(body.mesh.refined(elements))
     parents = _parents(body, finer)
     u, p = np.empty((len(finer.nodes), 2)), np.empty(len(finer.pressure_places))
-    shape = body.displacement_shape(_local(body, parents, finer.nodes[finer.connectivity]))
-    moved = np.einsum("eak,ekj->eaj", shape, state.u[body.connectivity[parents]])
-    polar = np.flatnonzero(body.polar[parents])
-    if len(polar):
-        sigma, phi = kernels.polar_coordinates(body.about(state.u, state.centre, parents[polar]))
-        sigma, phi = (np.einsum("eak,ek->ea", shape[polar], x) for x in (sigma, phi))
-        rho = np.sqrt(1.0 + 2.0 * sigma)
-        place = state.centre + np.stack([rho * np.cos(phi), rho * np.sin(phi)], axis=-1)
-        moved[polar] = place - finer.nodes[finer.connectivity[polar]]
-    u[finer.connectivity] = moved
+    places = finer.nodes[finer.connectivity]
+    u[finer.connectivity] = _displaced(body, state, parents, places)
     u[finer.held] = 0.0
-    shape = body.pressure_shape(_local(body, parents, finer.pressure_places[finer.triangles]))
-    p[finer.triangles] = np.einsum("eak,ek->ea", shape, state.p[body.triangles[parents]])
+    p[finer.triangles] = _pressures(body, state, parents, finer.pressure_places[finer.triangles])
     n = len(finer.face)
     carried = replace(
         state,
@@ -79,6 +71,26 @@ def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
         tangent=None,
     )
     return finer, carried
+
+
+def _displaced(body: Body, state: State, elements: Index, places: Array) -> Array:
+    """Return displacements at places (elements, places, 2) by the shape functions of elements."""
+    shape = body.displacement_shape(_local(body, elements, places))
+    u = np.einsum("eak,ekj->eaj", shape, state.u[body.connectivity[elements]])
+    polar = np.flatnonzero(body.polar[elements])
+    if len(polar):
+        sigma, phi = kernels.polar_coordinates(body.about(state.u, state.centre, elements[polar]))
+        sigma, phi = (np.einsum("eak,ek->ea", shape[polar], x) for x in (sigma, phi))
+        rho = np.sqrt(np.maximum(1.0 + 2.0 * sigma, 0.0))
+        around = np.stack([rho * np.cos(phi), rho * np.sin(phi)], axis=-1)
+        u[polar] = state.centre + around - places[polar]
+    return np.asarray(u)
+
+
+def _pressures(body: Body, state: State, elements: Index, places: Array) -> Array:
+    """Return pressures at places (elements, places, 2) by the shape functions of elements."""
+    shape = body.pressure_shape(_local(body, elements, places))
+    return np.asarray(np.einsum("eak,ek->ea", shape, state.p[body.triangles[elements]]))
 
 
 def _local(body: Body, elements: Index, places: Array) -> Array:
@@ -143,8 +155,8 @@ def transferred(body: Body, state: State, other: Body) -> State:
     places = other.along_face
     return replace(
         state,
-        u=np.where(other.held, 0.0, _interpolated(body, other.nodes, state.u, body.connectivity)),
-        p=_interpolated(body, other.pressure_places, state.p, body.triangles),
+        u=np.where(other.held, 0.0, _at(_displaced, body, state, other.nodes)),
+        p=_at(_pressures, body, state, other.pressure_places),
         active=ActiveSet(
             *(
                 np.interp(places, body.along_face, touching.astype(float)) > 0.5
@@ -157,12 +169,9 @@ def transferred(body: Body, state: State, other: Body) -> State:
     )
 
 
-def _interpolated(body: Body, places: Array, values: Array, connectivity: Index) -> Array:
-    """Return nodal values of a body at places, by the shape functions of their elements."""
-    elements = _holding(body, places.T)
-    local = _local(body, elements, places[:, None])[:, :, 0]
-    of = body.displacement_shape if connectivity is body.connectivity else body.pressure_shape
-    return np.asarray(np.einsum("nk,nk...->n...", of(local), values[connectivity[elements]]))
+def _at(values: Callable[..., Array], body: Body, state: State, places: Array) -> Array:
+    """Return values at places, shape (places, 2), by the element that holds each of them."""
+    return values(body, state, _holding(body, places.T), places[:, None])[:, 0]
 
 
 def _between(coarse: Body, fine: Body, touching: NDArray[np.bool_]) -> NDArray[np.bool_]:

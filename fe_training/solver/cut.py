@@ -49,6 +49,9 @@ _SPLIT_SHARE = 0.5
 #: Face nodes on either side of an end of the contact that belong to it.
 _END = 5
 
+#: Ends are sharp if this many intervals to either side are shorter than the longest by this factor.
+_BESIDE, _SHARP = 3, 0.3
+
 #: Refinements after one step; what is left is refined after the next one.
 _ROUNDS = 2
 
@@ -137,6 +140,15 @@ def at_ends(body: Body, state: State) -> NDArray[np.int64]:
     return split
 
 
+def ends_are_sharp(body: Body, state: State) -> bool:
+    """Return whether the face nodes at both ends of the contact are denser than between them."""
+    touching = np.flatnonzero(state.active.wire)
+    spacing = np.diff(body.along_face)
+    widest = spacing[touching[0] : touching[-1]].max()
+    at = [spacing[max(i - _BESIDE, 0) : i + _BESIDE].max() for i in (touching[0], touching[-1])]
+    return bool(max(at) < _SHARP * widest)
+
+
 def _cracked(alpha: float, spec: MeshSpec, settings: Settings) -> Body:
     return Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
 
@@ -183,14 +195,24 @@ class Cut:
             return None
         return Cut(self.body.alpha, spec, self.settings, self._build)
 
+    def coarser(self, factor: float) -> Cut:
+        """Return the body on a mesh with elements longer by `factor`."""
+        return Cut(self.body.alpha, self.spec.refined(1.0 / factor), self.settings, self._build)
+
     def taken_over(self, other: Cut, state: State) -> State:
         """Return the equilibrium at a position of the wire that another mesh has reached."""
         position = float(state.centre[0])
+        carried = self.carried(other, state, Control.POSITION)
+        return carried or self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+
+    def carried(self, other: Cut, state: State, control: Control) -> State | None:
+        """Return the equilibrium at the value of a control that another mesh has reached.
+
+        None where Newton's method does not get from that mesh's state to this one's.
+        """
+        value = control_value(other.body, state, control)
         start = transferred(other.body, state, self.body)
-        found, outcome = equilibrate(self.body, start, Control.POSITION, position, self.solver)
-        if outcome is NewtonOutcome.CONVERGED:
-            return found
-        return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+        return path.attempt(self.body, start, control, value, self.solver)[0]
 
     def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:
         """Yield the states of a path, the mesh adapted on the way.
@@ -232,6 +254,14 @@ class Cut:
             split = self.scattered(state, _SPLIT_SHARE * allowed)
             state = adapted = self._split(state, control, split)
         return adapted
+
+    def sharply_taken_over(self, other: Cut, state: State, times: int) -> State:
+        """Return the state of another mesh at its position, the ends of the contact split."""
+        try:
+            start = transferred(other.body, state, self.body)
+            return self.sharpened(start, Control.POSITION, times)
+        except PathStalledError:
+            return self.sharpened(self.taken_over(other, state), Control.POSITION, times)
 
     def sharpened(self, state: State, control: Control, times: int = 1) -> State:
         """Return the state on a mesh whose elements at the ends of the contact are split."""
@@ -275,20 +305,18 @@ class Cut:
 
     def at(self, state: State, g: float) -> State:
         """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
-        force = 0.5 * g / self._imbalance(state)
         for _ in range(_CORRECTIONS):
-            state = self._pulled(state, force)
-            ratio = self.energy_release_rate(state) / g
-            if abs(ratio - 1.0) < self.settings.tolerance:
+            if abs(self.energy_release_rate(state) / g - 1.0) < self.settings.tolerance:
                 return state
-            force /= ratio
+            force = self.force_at(g, state)
+            state = self.pulled(state, force)
         raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
 
-    def _imbalance(self, state: State) -> float:
-        """Return J/(2 F_h), which changes slowly along a path."""
-        return self.energy_release_rate(state) / (2.0 * state.horizontal_force)
+    def force_at(self, g: float, state: State) -> float:
+        """Return F_h at J = g mu R_w: J/(2 F_h) changes slowly along a path."""
+        return g * state.horizontal_force / self.energy_release_rate(state)
 
-    def _pulled(self, state: State, force: float) -> State:
+    def pulled(self, state: State, force: float) -> State:
         """Return the state at a horizontal force, with steps that follow the contact."""
         steps = Steps(_FORCE_STEP * abs(state.horizontal_force), np.inf)
         return self.last(state, Control.FORCE, force, steps)
