@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from skfem import MeshTri
 
 from fe_training.mechanics import kernels, ogden
 from fe_training.mechanics.active_set import ActiveSet
@@ -28,11 +29,28 @@ Index = NDArray[np.int64]
 _CANDIDATES, _MOST_CANDIDATES = 8, 128
 _INSIDE = 1e-6
 
+#: A mesh follows another one in as many rounds of splits as this at most, where its elements are
+#: longer by this factor.
+_ROUNDS, _LONGER = 8, 1.5
+
+
+#: Ends are sharp if this many intervals to either side are shorter than the longest by this factor.
+_BESIDE, _SHARP = 3, 0.3
+
 
 def determinant_scatter(body: Body, state: State) -> Array:
     """Return the root mean square of det F - 1 over each element's quadrature points [-]."""
     H = body.displacement_gradient(state.u, centre=state.centre)
     return np.asarray(np.sqrt((ogden.volume_change(H) ** 2).mean(axis=1)))
+
+
+def ends_are_sharp(body: Body, state: State) -> bool:
+    """Return whether the face nodes at both ends of the contact are denser than between them."""
+    touching = np.flatnonzero(state.active.wire)
+    spacing = np.diff(body.along_face)
+    widest = spacing[touching[0] : touching[-1]].max()
+    at = [spacing[max(i - _BESIDE, 0) : i + _BESIDE].max() for i in (touching[0], touching[-1])]
+    return bool(max(at) < _SHARP * widest)
 
 
 def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
@@ -167,6 +185,27 @@ def transferred(body: Body, state: State, other: Body) -> State:
         normal=np.zeros((n, 2)),
         tangent=None,
     )
+
+
+def as_fine_as(body: Body, other: Body) -> Body:
+    """Return the body on a mesh split where another one was: nowhere much longer elements than its.
+
+    The body itself where it is fine enough.
+    """
+    mesh = body.mesh
+    for _ in range(_ROUNDS):
+        there = _longest(other.mesh)[_holding(other, mesh.p[:, mesh.t].mean(axis=1))]
+        split = np.flatnonzero(_longest(mesh) > _LONGER * there)
+        if not len(split):
+            break
+        mesh = mesh.refined(split)
+    return body if mesh is body.mesh else body.on(mesh)
+
+
+def _longest(mesh: MeshTri) -> Array:
+    """Return the longest side of each element [R_w]."""
+    corners = mesh.p[:, mesh.t]
+    return np.asarray(np.hypot(*(corners - np.roll(corners, 1, axis=1))).max(axis=0))
 
 
 def _at(values: Callable[..., Array], body: Body, state: State, places: Array) -> Array:

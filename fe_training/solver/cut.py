@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fe_training.mechanics.body import Body
 from fe_training.mechanics.mesh import MeshSpec, crack_mesh
 from fe_training.solver import observe, path
-from fe_training.solver.adapt import determinant_scatter, refined, transferred
+from fe_training.solver.adapt import as_fine_as, determinant_scatter, refined, transferred
 from fe_training.solver.energy_release import domain_integral, plateau, strain_energy
 from fe_training.solver.equilibrium import (
     Control,
@@ -48,9 +48,6 @@ _SPLIT_SHARE = 0.5
 
 #: Face nodes on either side of an end of the contact that belong to it.
 _END = 5
-
-#: Ends are sharp if this many intervals to either side are shorter than the longest by this factor.
-_BESIDE, _SHARP = 3, 0.3
 
 #: Refinements after one step; what is left is refined after the next one.
 _ROUNDS = 2
@@ -140,15 +137,6 @@ def at_ends(body: Body, state: State) -> NDArray[np.int64]:
     return split
 
 
-def ends_are_sharp(body: Body, state: State) -> bool:
-    """Return whether the face nodes at both ends of the contact are denser than between them."""
-    touching = np.flatnonzero(state.active.wire)
-    spacing = np.diff(body.along_face)
-    widest = spacing[touching[0] : touching[-1]].max()
-    at = [spacing[max(i - _BESIDE, 0) : i + _BESIDE].max() for i in (touching[0], touching[-1])]
-    return bool(max(at) < _SHARP * widest)
-
-
 def _cracked(alpha: float, spec: MeshSpec, settings: Settings) -> Body:
     return Body(crack_mesh(spec), alpha, settings.bulk, polar=settings.polar)
 
@@ -173,6 +161,7 @@ class Cut:
     ) -> None:
         self.spec, self.settings, self._build = spec, settings, build or _cracked
         self.body = self._build(alpha, spec, settings)
+        self._first = self.body
         self.solver: LinearSolver = make_solver(settings.solver)
         self._clock = time.perf_counter()
 
@@ -211,8 +200,18 @@ class Cut:
         None where Newton's method does not get from that mesh's state to this one's.
         """
         value = control_value(other.body, state, control)
-        start = transferred(other.body, state, self.body)
-        return path.attempt(self.body, start, control, value, self.solver)[0]
+        body = as_fine_as(self.body, other.body) if other.was_split else self.body
+        solver = self.solver if body is self.body else make_solver(self.settings.solver)
+        start = transferred(other.body, state, body)
+        found, _ = path.attempt(body, start, control, value, solver)
+        if found is not None:
+            self.body, self.solver = body, solver
+        return found
+
+    @property
+    def was_split(self) -> bool:
+        """Whether elements have been split since the mesh was made."""
+        return self.body is not self._first
 
     def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:
         """Yield the states of a path, the mesh adapted on the way.

@@ -17,7 +17,8 @@ from fe_training.mechanics.analytic import (
 )
 from fe_training.mechanics.mesh import MeshSpec
 from fe_training.solver import path
-from fe_training.solver.cut import Cut, Settings, ends_are_sharp
+from fe_training.solver.adapt import ends_are_sharp
+from fe_training.solver.cut import Cut, Settings
 from fe_training.solver.equilibrium import Control, State, control_value
 from fe_training.solver.guide import Guide
 from fe_training.solver.path import PathStalledError, Steps

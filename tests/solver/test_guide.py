@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fe_training.solver import path
-from fe_training.solver.adapt import transferred
-from fe_training.solver.cut import Cut, Settings, ends_are_sharp
+from fe_training.solver.adapt import as_fine_as, ends_are_sharp, transferred
+from fe_training.solver.cut import Cut, Settings
 from fe_training.solver.equilibrium import Control, NewtonOutcome, control_value
 from fe_training.solver.guide import Guide
 from fe_training.solver.path import PathStalledError
@@ -105,3 +105,16 @@ def test_far_from_the_tip_the_ends_are_split_before_the_mesh_is_solved_on():
     assert ends_are_sharp(other.body, at_once)
     assert control_value(other.body, at_once, Control.POSITION) == -6.0
     assert at_once.vertical_force == pytest.approx(twice.vertical_force, rel=1e-5)
+
+
+def test_a_mesh_is_split_where_the_one_that_led_to_it_was(own):
+    cut, _ = own
+    other = cut.coarser(2.0)
+    body = other.body
+    for _ in range(3):
+        near = np.hypot(*body.mesh.p[:, body.mesh.t].mean(axis=1)) < 0.3
+        body = body.on(body.mesh.refined(np.flatnonzero(near)))
+    finer = as_fine_as(cut.body, body)
+    assert finer.free.sum() > 1.5 * cut.body.free.sum()
+    assert as_fine_as(finer, body) is finer
+    assert not other.was_split
