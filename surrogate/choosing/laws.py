@@ -208,6 +208,9 @@ def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
         g, relative = np.divide(gamma, mu * radius), np.divide(wear, mu)
         share = model.amplification.share(float(g), alpha, xi, float(relative))
     where = "where no coupled solution is near" if share == np.inf else f"{share:.3g} times it"
+    most = model.amplification.most_wear(alpha)
+    if relative > most:
+        where += f", and no wire slid steadily above tau_w/mu = {most:.3g} near this alpha"
     raise DomainError(
         "friction and wear must be at most the load that coupled solutions reach before the tip "
         f"touches the wire, but xi = {xi:.4g}, tau_w/mu = {relative:.4g} at g = {g:.4g}, alpha = "

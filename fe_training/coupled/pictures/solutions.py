@@ -322,6 +322,8 @@ def ends_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> None
         ax.set_xscale("log")
         low, high = min(ray.alpha for ray in paths), max(ray.alpha for ray in paths)
         ax.set_ylim(low - 0.3, high + 0.3)
+        weak, tough = min(ray.g for ray in paths), max(ray.g for ray in paths)
+        ax.set_xlim(0.5 * weak, 10.0 * tough)
         label_axes(ax, TOUGHNESS, r"$\alpha$ [-]")
     for ray in paths:
         _mark_end(axes[2], ray, ray.friction[-1], ray.wear[-1])

@@ -23,6 +23,9 @@ Place = tuple[float, float]
 SIZE = (7.0, 2.9)
 """Size of the figure [inch]."""
 
+#: Ratio from which on radii are different ones.
+_APART = 2.0
+
 _MARKERS = ("o", "s", "^")
 
 
@@ -32,8 +35,10 @@ def places_with_notches(data: CoupledData) -> dict[Place, Array]:
     places = {}
     for alpha, g in np.unique(pairs, axis=0).tolist():
         radii = np.unique(data["notch_radius"][_at(data, (alpha, g))])
-        if len(radii[np.isfinite(radii)]) > 1:
-            places[alpha, g] = radii[np.isfinite(radii)][::-1]
+        radii = radii[np.isfinite(radii)]
+        radii = radii[np.insert(radii[1:] > _APART * radii[:-1], 0, True)] if len(radii) else radii
+        if len(radii) > 1:
+            places[alpha, g] = radii[::-1]
     return places
 
 
@@ -54,8 +59,9 @@ def friction_limits(data: CoupledData, place: Place, radii: Array) -> Array:
 
 
 def wear_forces(data: CoupledData, place: Place, radius: float) -> tuple[Array, Array]:
-    """Return tau_w/mu and F_ss/(mu R_w) of wear alone that was reached."""
+    """Return tau_w/mu and F_ss/(mu R_w) of wear alone, with the taper of 1 that all radii have."""
     rows = _at(data, place, radius) & (data["friction"] == 0.0)
+    rows &= np.isclose(data["ramp"], data["wear"])
     rows &= data["outcome"] == SlidingOutcome.CONVERGED.name
     wear, first = np.unique(data["wear"][rows], return_index=True)
     return wear, data["steady_force"][rows][first]
