@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from surrogate.basics.checks import (
     FRICTION_COEFFICIENT,
+    LAWS,
     SHEAR_MODULUS,
     STIFFENING_EXPONENT,
     TOUGHNESS,
@@ -25,6 +26,9 @@ from surrogate.basics.elementwise import apply, quotient, ratio
 from surrogate.basics.records import Record
 from surrogate.errors import InputError
 
+if TYPE_CHECKING:
+    from surrogate.reading.material import Material
+
 __all__ = ["Scene", "require_scene"]
 
 QUANTITIES: tuple[Quantity, ...] = (
@@ -35,9 +39,6 @@ QUANTITIES: tuple[Quantity, ...] = (
     WEAR_STRENGTH,
     STIFFENING_EXPONENT,
 )
-
-LAWS = ("projected", "slip", "coupled")
-"""Names of the laws of dissipation."""
 
 NAMES = tuple(quantity.name for quantity in QUANTITIES)
 
@@ -135,6 +136,46 @@ class Scene(Record):
             *self.values(),
             self.law,
         )  # by __init__, whose arrays are read-only
+
+    @classmethod
+    def of_material(cls, material: Material, wire_radius: ArrayLike) -> Scene:
+        """Return the scene of a material that was read or identified, and wires.
+
+        Parameters
+        ----------
+        material : Material
+            With shear modulus and toughness; unknown friction and wear are none, an unknown alpha
+            is 2. A force of the scene is by the material's law.
+        wire_radius : float or array_like
+            R_w [m].
+
+        Raises
+        ------
+        InputError
+            If shear modulus or toughness is unknown.
+
+        Examples
+        --------
+        >>> from surrogate import Material
+        >>> gel = Material(shear_modulus=685.0, toughness=1.6, wear_strength=7750.0, law="slip")
+        >>> Scene.of_material(gel, 1e-4).law
+        'slip'
+        """
+        for name in ("shear_modulus", "toughness"):
+            if getattr(material, name) is None:
+                raise InputError(
+                    f"a scene must have shear_modulus and toughness, but the material has no "
+                    f"{name}; give it, or identify it from cuts."
+                )
+        return cls(
+            material.shear_modulus,  # type: ignore[arg-type]
+            material.toughness,  # type: ignore[arg-type]
+            wire_radius,
+            material.friction_coefficient or 0.0,
+            material.wear_strength or 0.0,
+            2.0 if material.stiffening_exponent is None else material.stiffening_exponent,
+            material.law,
+        )
 
     def values(self) -> tuple[FloatOrArray, ...]:
         """Return the six quantities in the order of the parameters."""

@@ -38,7 +38,13 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("design", help="the design file, such as models/coupled.toml")
     add("--store", metavar="DIR", default="output/coupled", help="finished rows (output/coupled)")
-    add("--jobs", type=int, default=1, metavar="N", help="processes (1)")
+    add("--jobs", type=int, default=1, metavar="N", help="processes of this machine (1)")
+    add(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of a Dask scheduler, whose workers solve instead; they need the folder of --store "
+        "under the same path",
+    )
     add("--bases", type=int, metavar="N", help="only the first N bases")
     add("--write", metavar="FILE", help="write the finished rows to an HDF5 file at the end")
     add(
@@ -97,7 +103,7 @@ def _solve(
     from fe_training.campaign.workers import Workers
     from fe_training.coupled.run import again, run_coupled, waiting
 
-    workers = Workers(options.jobs)
+    workers = Workers(options.jobs, options.scheduler)
     if options.finer:
         other = design.on_finer_mesh()
         todo = [base for base in again(design, store) if not finer.is_finished(base)]
@@ -123,7 +129,7 @@ def _draw(folder: Path) -> int:
     """Draw the pictures; the data set is that beside the models in use."""
     from fe_training.campaign.dataset import load_campaign
     from fe_training.coupled.dataset import read_coupled
-    from fe_training.coupled.figures import PICTURES, draw_pictures
+    from fe_training.coupled.pictures.solutions import PICTURES, draw_pictures
     from surrogate.contact.shipped import folder_in_use
     from surrogate.coupling.shipped import amplification
 

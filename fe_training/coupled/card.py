@@ -12,14 +12,14 @@ import numpy as np
 
 from fe_training.campaign.store import write_atomically
 from fe_training.coupled.dataset import CoupledData
-from fe_training.coupled.fit import fit_amplification
+from fe_training.coupled.fit import ALPHA_EDGES, fit_amplification
 from fe_training.coupled.reach import KNOWN, MOST_ERROR
 from fe_training.coupled.rows import FitRows, rows_of
 from surrogate.basics.files import checksum_line
 from surrogate.coupling.amplification import LEAST_SHARE, Amplification
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, content_of_amplification
 
-__all__ = ["CARD", "make_amplification"]
+__all__ = ["CARD", "make_amplification", "most_wear"]
 
 CARD = "coupled-card.md"
 
@@ -42,7 +42,7 @@ def make_amplification(data: CoupledData, touch: tuple[float, ...], out: Path) -
         If there are too few rows.
     """
     rows = rows_of(data, touch)
-    about = {"data": dict(data.attributes)}
+    about = {"data": dict(data.attributes), "most_wear": most_wear(data)}
     kappa, process, told = fit_amplification(rows, touch, about)
     content = content_of_amplification(kappa)
     write_atomically(out / AMPLIFICATION_FILE, content)
@@ -51,6 +51,22 @@ def make_amplification(data: CoupledData, touch: tuple[float, ...], out: Path) -
     card = _card(data, rows, kappa, told, process.calibration, len(content))
     write_atomically(out / CARD, card.encode())
     return kappa
+
+
+def most_wear(data: CoupledData) -> list[tuple[float, float, float]]:
+    """Return ranges of alpha with the largest tau_w/mu of any equilibrium in them.
+
+    Paths with the tip in contact and with tapered wear count as well. A range in which a path came
+    to the end of its loads is left out: there wear has not been seen to end.
+    """
+    ends = data["alpha"].min(), *ALPHA_EDGES, data["alpha"].max()
+    wanted, wear = data["target_wear"].max(), np.nan_to_num(data["wear"])
+    ranges = []
+    for low, high in itertools.pairwise(ends):
+        most = wear[(data["alpha"] >= low) & (data["alpha"] <= high)].max(initial=0.0)
+        if most < wanted:
+            ranges.append((float(low), float(high), float(most)))
+    return ranges
 
 
 def _card(

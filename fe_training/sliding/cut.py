@@ -113,7 +113,7 @@ class SlidingCut:
         self._rate = self._rate or abs(self.state.position_rate)
         while self.state.share < 1.0:
             try:
-                for state in follow(self.problem, self.state, leg, steps, _FLAT * self._rate):
+                for state in follow(self.problem, self.state, leg, steps, self._flat(leg)):
                     rescues = 0
                     self.steps += 1
                     self._take(state, leg)
@@ -127,6 +127,15 @@ class SlidingCut:
                     raise self._stalled(error) from None
                 self._rescue(leg, _RESCUE_SHARES[rescues], error)
                 rescues += 1
+
+    def _flat(self, leg: Leg) -> float:
+        """Return dJ/dx_w below which steps are in the position of the wire.
+
+        Not where wear jumps at the ends of the contact: there dJ/dx_w scatters, and the load falls
+        as a node leaves the wire.
+        """
+        jumps = leg.end.load.wear > 0.0 and leg.end.load.taper == 0.0
+        return 0.0 if jumps else _FLAT * self._rate
 
     def _take(self, state: SlidingState, leg: Leg) -> None:
         """Take up an equilibrium on a leg, and remember that of the largest load."""

@@ -20,6 +20,9 @@ from surrogate.errors import InputError
 #: Friction and wear that the engine is made for, from 0.
 MOST_FRICTION, MOST_WEAR, MOST_TAPER = 5.0, 100.0, 10.0
 
+#: Radii of the notch from which the tip is a tip and the wire touches the face beyond it [R_w].
+NOTCH_RANGE = 1e-6, 0.1
+
 _STEPS = Steps(first=0.02, largest=0.5, smallest=1e-2)
 
 Report = Callable[[SlidingRecord], None]
@@ -81,6 +84,8 @@ def solve_rays(
     """
     alpha, g = _checked("alpha", alpha, *ALPHA_RANGE), _checked("g", g, *G_RANGE)
     taper = _checked("taper", taper, 0.0, MOST_TAPER)
+    settings = settings or Settings()
+    _checked("notch_radius", settings.notch_radius, *NOTCH_RANGE)
     ways = [[Point(g, _load(*pair, taper)) for pair in ray] for ray in rays]
     records: list[SlidingRecord] = []
 
@@ -89,7 +94,7 @@ def solve_rays(
         if report is not None:
             report(record)
 
-    begun, reason = _begun(alpha, g, settings or Settings())
+    begun, reason = _begun(alpha, g, settings)
     for way in ways:
         if begun is None:
             for point in way:

@@ -8,11 +8,13 @@ exactly, since the new mesh is nested in the old one.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from skfem import MeshTri
 
 from fe_training.mechanics import kernels, ogden
 from fe_training.mechanics.active_set import ActiveSet
@@ -27,11 +29,28 @@ Index = NDArray[np.int64]
 _CANDIDATES, _MOST_CANDIDATES = 8, 128
 _INSIDE = 1e-6
 
+#: A mesh follows another one in as many rounds of splits as this at most, where its elements are
+#: longer by this factor.
+_ROUNDS, _LONGER = 8, 1.5
+
+
+#: Ends are sharp if this many intervals to either side are shorter than the longest by this factor.
+_BESIDE, _SHARP = 3, 0.3
+
 
 def determinant_scatter(body: Body, state: State) -> Array:
     """Return the root mean square of det F - 1 over each element's quadrature points [-]."""
     H = body.displacement_gradient(state.u, centre=state.centre)
     return np.asarray(np.sqrt((ogden.volume_change(H) ** 2).mean(axis=1)))
+
+
+def ends_are_sharp(body: Body, state: State) -> bool:
+    """Return whether the face nodes at both ends of the contact are denser than between them."""
+    touching = np.flatnonzero(state.active.wire)
+    spacing = np.diff(body.along_face)
+    widest = spacing[touching[0] : touching[-1]].max()
+    at = [spacing[max(i - _BESIDE, 0) : i + _BESIDE].max() for i in (touching[0], touching[-1])]
+    return bool(max(at) < _SHARP * widest)
 
 
 def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
@@ -53,19 +72,10 @@ def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
     finer = body.on(body.mesh.refined(elements))
     parents = _parents(body, finer)
     u, p = np.empty((len(finer.nodes), 2)), np.empty(len(finer.pressure_places))
-    shape = body.displacement_shape(_local(body, parents, finer.nodes[finer.connectivity]))
-    moved = np.einsum("eak,ekj->eaj", shape, state.u[body.connectivity[parents]])
-    polar = np.flatnonzero(body.polar[parents])
-    if len(polar):
-        sigma, phi = kernels.polar_coordinates(body.about(state.u, state.centre, parents[polar]))
-        sigma, phi = (np.einsum("eak,ek->ea", shape[polar], x) for x in (sigma, phi))
-        rho = np.sqrt(1.0 + 2.0 * sigma)
-        place = state.centre + np.stack([rho * np.cos(phi), rho * np.sin(phi)], axis=-1)
-        moved[polar] = place - finer.nodes[finer.connectivity[polar]]
-    u[finer.connectivity] = moved
+    places = finer.nodes[finer.connectivity]
+    u[finer.connectivity] = _displaced(body, state, parents, places)
     u[finer.held] = 0.0
-    shape = body.pressure_shape(_local(body, parents, finer.pressure_places[finer.triangles]))
-    p[finer.triangles] = np.einsum("eak,ek->ea", shape, state.p[body.triangles[parents]])
+    p[finer.triangles] = _pressures(body, state, parents, finer.pressure_places[finer.triangles])
     n = len(finer.face)
     carried = replace(
         state,
@@ -79,6 +89,26 @@ def refined(body: Body, state: State, elements: Index) -> tuple[Body, State]:
         tangent=None,
     )
     return finer, carried
+
+
+def _displaced(body: Body, state: State, elements: Index, places: Array) -> Array:
+    """Return displacements at places (elements, places, 2) by the shape functions of elements."""
+    shape = body.displacement_shape(_local(body, elements, places))
+    u = np.einsum("eak,ekj->eaj", shape, state.u[body.connectivity[elements]])
+    polar = np.flatnonzero(body.polar[elements])
+    if len(polar):
+        sigma, phi = kernels.polar_coordinates(body.about(state.u, state.centre, elements[polar]))
+        sigma, phi = (np.einsum("eak,ek->ea", shape[polar], x) for x in (sigma, phi))
+        rho = np.sqrt(np.maximum(1.0 + 2.0 * sigma, 0.0))
+        around = np.stack([rho * np.cos(phi), rho * np.sin(phi)], axis=-1)
+        u[polar] = state.centre + around - places[polar]
+    return np.asarray(u)
+
+
+def _pressures(body: Body, state: State, elements: Index, places: Array) -> Array:
+    """Return pressures at places (elements, places, 2) by the shape functions of elements."""
+    shape = body.pressure_shape(_local(body, elements, places))
+    return np.asarray(np.einsum("eak,ek->ea", shape, state.p[body.triangles[elements]]))
 
 
 def _local(body: Body, elements: Index, places: Array) -> Array:
@@ -143,8 +173,8 @@ def transferred(body: Body, state: State, other: Body) -> State:
     places = other.along_face
     return replace(
         state,
-        u=np.where(other.held, 0.0, _interpolated(body, other.nodes, state.u, body.connectivity)),
-        p=_interpolated(body, other.pressure_places, state.p, body.triangles),
+        u=np.where(other.held, 0.0, _at(_displaced, body, state, other.nodes)),
+        p=_at(_pressures, body, state, other.pressure_places),
         active=ActiveSet(
             *(
                 np.interp(places, body.along_face, touching.astype(float)) > 0.5
@@ -157,12 +187,30 @@ def transferred(body: Body, state: State, other: Body) -> State:
     )
 
 
-def _interpolated(body: Body, places: Array, values: Array, connectivity: Index) -> Array:
-    """Return nodal values of a body at places, by the shape functions of their elements."""
-    elements = _holding(body, places.T)
-    local = _local(body, elements, places[:, None])[:, :, 0]
-    of = body.displacement_shape if connectivity is body.connectivity else body.pressure_shape
-    return np.asarray(np.einsum("nk,nk...->n...", of(local), values[connectivity[elements]]))
+def as_fine_as(body: Body, other: Body) -> Body:
+    """Return the body on a mesh split where another one was: nowhere much longer elements than its.
+
+    The body itself where it is fine enough.
+    """
+    mesh = body.mesh
+    for _ in range(_ROUNDS):
+        there = _longest(other.mesh)[_holding(other, mesh.p[:, mesh.t].mean(axis=1))]
+        split = np.flatnonzero(_longest(mesh) > _LONGER * there)
+        if not len(split):
+            break
+        mesh = mesh.refined(split)
+    return body if mesh is body.mesh else body.on(mesh)
+
+
+def _longest(mesh: MeshTri) -> Array:
+    """Return the longest side of each element [R_w]."""
+    corners = mesh.p[:, mesh.t]
+    return np.asarray(np.hypot(*(corners - np.roll(corners, 1, axis=1))).max(axis=0))
+
+
+def _at(values: Callable[..., Array], body: Body, state: State, places: Array) -> Array:
+    """Return values at places, shape (places, 2), by the element that holds each of them."""
+    return values(body, state, _holding(body, places.T), places[:, None])[:, 0]
 
 
 def _between(coarse: Body, fine: Body, touching: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fe_training.mechanics.body import Body
 from fe_training.mechanics.mesh import MeshSpec, crack_mesh
 from fe_training.solver import observe, path
-from fe_training.solver.adapt import determinant_scatter, refined, transferred
+from fe_training.solver.adapt import as_fine_as, determinant_scatter, refined, transferred
 from fe_training.solver.energy_release import domain_integral, plateau, strain_energy
 from fe_training.solver.equilibrium import (
     Control,
@@ -161,6 +161,7 @@ class Cut:
     ) -> None:
         self.spec, self.settings, self._build = spec, settings, build or _cracked
         self.body = self._build(alpha, spec, settings)
+        self._first = self.body
         self.solver: LinearSolver = make_solver(settings.solver)
         self._clock = time.perf_counter()
 
@@ -183,14 +184,34 @@ class Cut:
             return None
         return Cut(self.body.alpha, spec, self.settings, self._build)
 
+    def coarser(self, factor: float) -> Cut:
+        """Return the body on a mesh with elements longer by `factor`."""
+        return Cut(self.body.alpha, self.spec.refined(1.0 / factor), self.settings, self._build)
+
     def taken_over(self, other: Cut, state: State) -> State:
         """Return the equilibrium at a position of the wire that another mesh has reached."""
         position = float(state.centre[0])
-        start = transferred(other.body, state, self.body)
-        found, outcome = equilibrate(self.body, start, Control.POSITION, position, self.solver)
-        if outcome is NewtonOutcome.CONVERGED:
-            return found
-        return self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+        carried = self.carried(other, state, Control.POSITION)
+        return carried or self.last(undeformed(self.body, position), Control.HEIGHT, 0.0, _RAISE)
+
+    def carried(self, other: Cut, state: State, control: Control) -> State | None:
+        """Return the equilibrium at the value of a control that another mesh has reached.
+
+        None where Newton's method does not get from that mesh's state to this one's.
+        """
+        value = control_value(other.body, state, control)
+        body = as_fine_as(self.body, other.body) if other.was_split else self.body
+        solver = self.solver if body is self.body else make_solver(self.settings.solver)
+        start = transferred(other.body, state, body)
+        found, _ = path.attempt(body, start, control, value, solver)
+        if found is not None:
+            self.body, self.solver = body, solver
+        return found
+
+    @property
+    def was_split(self) -> bool:
+        """Whether elements have been split since the mesh was made."""
+        return self.body is not self._first
 
     def moved(self, state: State, control: Control, end: float, steps: Steps) -> Iterator[State]:
         """Yield the states of a path, the mesh adapted on the way.
@@ -232,6 +253,14 @@ class Cut:
             split = self.scattered(state, _SPLIT_SHARE * allowed)
             state = adapted = self._split(state, control, split)
         return adapted
+
+    def sharply_taken_over(self, other: Cut, state: State, times: int) -> State:
+        """Return the state of another mesh at its position, the ends of the contact split."""
+        try:
+            start = transferred(other.body, state, self.body)
+            return self.sharpened(start, Control.POSITION, times)
+        except PathStalledError:
+            return self.sharpened(self.taken_over(other, state), Control.POSITION, times)
 
     def sharpened(self, state: State, control: Control, times: int = 1) -> State:
         """Return the state on a mesh whose elements at the ends of the contact are split."""
@@ -275,20 +304,18 @@ class Cut:
 
     def at(self, state: State, g: float) -> State:
         """Return the state at which J = g mu R_w, by the horizontal force, which is half of it."""
-        force = 0.5 * g / self._imbalance(state)
         for _ in range(_CORRECTIONS):
-            state = self._pulled(state, force)
-            ratio = self.energy_release_rate(state) / g
-            if abs(ratio - 1.0) < self.settings.tolerance:
+            if abs(self.energy_release_rate(state) / g - 1.0) < self.settings.tolerance:
                 return state
-            force /= ratio
+            force = self.force_at(g, state)
+            state = self.pulled(state, force)
         raise PathStalledError(state, Control.FORCE, force, NewtonOutcome.STALLED)
 
-    def _imbalance(self, state: State) -> float:
-        """Return J/(2 F_h), which changes slowly along a path."""
-        return self.energy_release_rate(state) / (2.0 * state.horizontal_force)
+    def force_at(self, g: float, state: State) -> float:
+        """Return F_h at J = g mu R_w: J/(2 F_h) changes slowly along a path."""
+        return g * state.horizontal_force / self.energy_release_rate(state)
 
-    def _pulled(self, state: State, force: float) -> State:
+    def pulled(self, state: State, force: float) -> State:
         """Return the state at a horizontal force, with steps that follow the contact."""
         steps = Steps(_FORCE_STEP * abs(state.horizontal_force), np.inf)
         return self.last(state, Control.FORCE, force, steps)

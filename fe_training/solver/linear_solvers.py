@@ -97,16 +97,18 @@ class SuperLU(LinearSolver):
 class Pardiso(LinearSolver):
     """Intel's PARDISO through pypardiso: symmetric indefinite, its analysis reused.
 
-    Its settings are MKL's own for such matrices, with two exceptions.  Solutions are refined only
+    Its settings are MKL's own for such matrices, with three exceptions.  Solutions are refined only
     where pivots had to be perturbed, which backward errors below 1e-14 show to be enough.  Its
-    two-level algorithms take 0.75 of the time for a factorisation and 0.6 for two solutions.
+    two-level algorithms take 0.75 of the time for a factorisation and 0.6 for two solutions.  And
+    pivots count as zero below 1e-10 of the matrix, not below 1e-8: pressures of short elements far
+    from the tip have such pivots, sound ones, and their replacement made Newton's method crawl.
     """
 
     name = "pardiso"
     _SYMMETRIC_INDEFINITE = -2
-    #: Settings given: nested dissection, refinements, perturbation 10^-8, Bunch-Kaufman pivots,
+    #: Settings given: nested dissection, refinements, perturbation 10^-10, Bunch-Kaufman pivots,
     #: two-level factorisation, solution of several columns at once.
-    _SETTINGS = MappingProxyType({1: 1, 2: 2, 8: 0, 10: 8, 21: 1, 24: 10, 25: 2})
+    _SETTINGS = MappingProxyType({1: 1, 2: 2, 8: 0, 10: 10, 21: 1, 24: 10, 25: 2})
 
     def __init__(self) -> None:
         import pypardiso

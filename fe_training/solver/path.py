@@ -79,16 +79,18 @@ class Steps:
     largest: float
 
 
-def _attempt(
+def attempt(
     body: Body,
     state: State,
     control: Control,
     target: float,
     solver: LinearSolver,
     enough: float = AIM,
+    guarded: bool = True,
 ) -> tuple[State | None, NewtonOutcome]:
+    """Return the equilibrium at one value of a control, None unless it is to be accepted."""
     # forces are prescribed at high toughness, where the guard would make Newton's method crawl
-    guarded = control is not Control.FORCE
+    guarded = guarded and control is not Control.FORCE
     found, outcome = equilibrate(
         body, state, control, target, solver, guarded=guarded, enough=enough
     )
@@ -105,6 +107,12 @@ def _bound(body: Body, state: State, control: Control, sign: float) -> float:
         return np.inf
     relative = _FORCE_STEP * abs(state.horizontal_force)
     return min(relative, contact_step(body, state, control, sign, _SHARE))
+
+
+def in_one_step(body: Body, state: State, control: Control, end: float) -> bool:
+    """Return whether one step from a state with a tangent may reach a value of its control."""
+    way = end - control_value(body, state, control)
+    return state.tangent is not None and abs(way) <= _bound(body, state, control, np.sign(way))
 
 
 def follow(
@@ -147,7 +155,7 @@ def follow(
         if sign * (end - there) < 0.2 * step:
             there = end
         enough = AIM if there == end else PASSED_BY
-        found, outcome = _attempt(body, state, control, there, solver, enough)
+        found, outcome = attempt(body, state, control, there, solver, enough)
         if found is None:
             size = 0.5 * min(size, abs(there - here))
             if size < _SMALLEST_SHARE * steps.first:
@@ -199,7 +207,7 @@ def land(
     goal = np.log(target)
     for _ in range(_SECANTS):
         x = x0 + (goal - y0) * (x1 - x0) / (y1 - y0)
-        found, outcome = _attempt(body, state, control, x, solver)
+        found, outcome = attempt(body, state, control, x, solver, guarded=False)
         if found is None:
             raise PathStalledError(state, control, x, outcome)
         state = found

@@ -17,8 +17,10 @@ from fe_training.mechanics.analytic import (
 )
 from fe_training.mechanics.mesh import MeshSpec
 from fe_training.solver import path
+from fe_training.solver.adapt import ends_are_sharp
 from fe_training.solver.cut import Cut, Settings
 from fe_training.solver.equilibrium import Control, State, control_value
+from fe_training.solver.guide import Guide
 from fe_training.solver.path import PathStalledError, Steps
 from fe_training.solver.record import Outcome, Record
 from surrogate.errors import InputError
@@ -112,12 +114,11 @@ def _indentation(
     below: list[float] = []
     waiting = deque(sorted(targets))
     try:
-        state = cut.raised(_START)
-        start = cut.energy_release_rate(state)
-        while waiting and waiting[0] < start:
+        guide = Guide(cut, _START)
+        while waiting and waiting[0] < guide.start:
             below.append(waiting.popleft())
         while waiting:
-            state = cut.at(state, waiting[0])
+            state = guide.at(waiting[0])
             records.append(cut.record(state, waiting.popleft(), shift))
             report(records[-1])
     except PathStalledError as error:
@@ -159,8 +160,10 @@ def far_field_state(cut: Cut, g: float) -> tuple[Cut, State] | None:
         return None
     state = _landed(rough, state, g)
     cut = far_field_cut(alpha, -float(state.centre[0]), settings)
-    state = _landed(cut, cut.taken_over(rough, state), g)
-    return cut, cut.sharpened(state, Control.POSITION, _SHARPENINGS)
+    state = _landed(cut, cut.sharply_taken_over(rough, state, _SHARPENINGS), g)
+    if not ends_are_sharp(cut.body, state):
+        state = cut.sharpened(state, Control.POSITION, _SHARPENINGS)
+    return cut, state
 
 
 def frictionless_state(alpha: float, g: float, settings: Settings) -> tuple[Cut, State] | None:
@@ -173,9 +176,9 @@ def frictionless_state(alpha: float, g: float, settings: Settings) -> tuple[Cut,
     """
     if g >= _SURELY_FAR:
         cut = indentation_cut(alpha, settings)
-        state = cut.raised(_START)
-        if cut.energy_release_rate(state) <= g:
-            return cut, cut.at(state, g)
+        guide = Guide(cut, _START)
+        if guide.start <= g:
+            return cut, guide.at(g)
     return far_field_state(far_field_cut(alpha, _far_depth(g), settings), g)
 
 

@@ -27,6 +27,7 @@ __all__ = [
     "ABOVE_HALF",
     "FRICTION_COEFFICIENT",
     "LARGEST",
+    "LAWS",
     "RTOL",
     "SHEAR_MODULUS",
     "SMALLEST",
@@ -254,6 +255,9 @@ FRICTION_COEFFICIENT = Quantity(
 WEAR_STRENGTH = Quantity(
     "wear_strength", "Pa", "give the shear strength in pascals, or 0 where wear is to be neglected"
 )
+LAWS = ("projected", "slip", "coupled")
+"""Names of the laws of dissipation."""
+
 STIFFENING_EXPONENT = Quantity(
     "stiffening_exponent",
     "",

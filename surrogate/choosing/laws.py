@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surrogate.basics.checks import one_number, shown
+from surrogate.basics.checks import LAWS, one_number, shown
 from surrogate.basics.elementwise import quotient, ratio, where
 from surrogate.choosing.accuracy import contact_bounds
 from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.contact.fitted import COUPLED, PROJECTED, SLIP, TERMS_OF_LAW, FittedModel
 from surrogate.errors import DomainError, InputError
-from surrogate.scene import LAWS
 
 if TYPE_CHECKING:
     from surrogate.choosing.candidates import Candidates
@@ -209,6 +208,9 @@ def require_known_load(model: Any, values: tuple[Any, ...]) -> None:
         g, relative = np.divide(gamma, mu * radius), np.divide(wear, mu)
         share = model.amplification.share(float(g), alpha, xi, float(relative))
     where = "where no coupled solution is near" if share == np.inf else f"{share:.3g} times it"
+    most = model.amplification.most_wear(alpha)
+    if relative > most:
+        where += f", and no wire slid steadily above tau_w/mu = {most:.3g} near this alpha"
     raise DomainError(
         "friction and wear must be at most the load that coupled solutions reach before the tip "
         f"touches the wire, but xi = {xi:.4g}, tau_w/mu = {relative:.4g} at g = {g:.4g}, alpha = "

@@ -100,8 +100,9 @@ def design_record(options: argparse.Namespace) -> Record:
         expected, relative = _guess(options), None
     if options.law is not None and expected.law not in (None, options.law):
         raise InputError(
-            f"{options.result}: was identified by the law {expected.law!r}, whose wear strength is "
-            f"not that of another; leave out --law {options.law}, or identify by that law."
+            f"{options.result or options.material}: was identified by the law {expected.law!r}, "
+            f"whose wear strength is not that of another; leave out --law {options.law}, or "
+            "identify by that law."
         )
     if options.force_std is not None or options.relative_error is not None:
         relative = options.relative_error
@@ -156,20 +157,27 @@ def _guess(options: argparse.Namespace) -> Scene:
     solid = {
         name: _first(getattr(options, name), getattr(material, name, None)) for name in _FROM_RESULT
     }
+    toughness, wear, law = options.toughness, options.wear_strength, None
+    if material is not None and toughness is None and wear is None:
+        toughness, wear, law = _one(material.toughness), _one(material.wear_strength), material.law
     for value, option in (
         (solid["shear_modulus"], "--shear-modulus or --material"),
-        (options.toughness, "--toughness"),
-        (options.wear_strength, "--wear-strength"),
+        (toughness, "--toughness"),
+        (wear, "--wear-strength"),
     ):
         if value is None:
             raise InputError(
                 f"a guess of the material is incomplete; give {option}, or --result FILE for an "
                 "earlier one."
             )
-    return _scene(options.toughness, options.wear_strength, solid)
+    return _scene(toughness, wear, solid, law)
 
 
-def _scene(toughness: Any, wear_strength: Any, solid: Record) -> Scene:
+def _one(value: float | None) -> list[float] | None:
+    return None if value is None else [value]
+
+
+def _scene(toughness: Any, wear_strength: Any, solid: Record, law: str | None) -> Scene:
     """Return every toughness with every wear strength, those given first in front."""
     pairs = [(gamma, tau) for gamma in toughness for tau in wear_strength]
     given = {name: value for name, value in solid.items() if value is not None}
@@ -177,6 +185,7 @@ def _scene(toughness: Any, wear_strength: Any, solid: Record) -> Scene:
         toughness=np.array([gamma for gamma, _ in pairs]),
         wear_strength=np.array([tau for _, tau in pairs]),
         wire_radius=1.0,
+        law=law,
         **given,
     )
 

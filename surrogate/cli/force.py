@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
+import warnings
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from textwrap import fill
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +36,13 @@ from surrogate.cli.common import (
 )
 from surrogate.cutting.force import CuttingForce, cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, SPLIT_MODEL, Regime, classify
-from surrogate.errors import DomainError, InputError
+from surrogate.errors import (
+    DomainError,
+    ImplausibleInputWarning,
+    InputError,
+    OtherLawWarning,
+)
+from surrogate.reading.material import Material, read_material
 from surrogate.reading.plausibility import doubts_of_scene
 from surrogate.reading.units import LENGTH, STRESS, TOUGHNESS
 from surrogate.scene import Scene
@@ -256,27 +266,25 @@ def _models_of_law(record: Record) -> str:
 def _add_scene_options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add(
-        "--shear-modulus",
-        type=quantity(STRESS),
-        required=True,
-        metavar="MU",
-        help="shear modulus mu",
+        "--material",
+        metavar="FILE",
+        help="properties of the solid (JSON), as 'wirecut identify --write-material' writes them "
+        "with the law that they are of; options go before",
     )
+    add("--shear-modulus", type=quantity(STRESS), metavar="MU", help="shear modulus mu")
     add(
         "--toughness",
         type=quantity(TOUGHNESS),
-        required=True,
         metavar="GAMMA_O",
         help="cleavage toughness Gamma_o",
     )
     add(
         "--wear-strength",
         type=quantity(STRESS),
-        default=0.0,
         metavar="TAU_W",
         help="wear and adhesion shear strength tau_w (default 0)",
     )
-    add_friction_and_stiffening(command, friction=0.0, stiffening=2.0)
+    add_friction_and_stiffening(command, friction=None, stiffening=None)
     wire = command.add_mutually_exclusive_group(required=True)
     for name in ("radius", "diameter"):
         wire.add_argument(
@@ -332,14 +340,23 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
 
 def _scene(options: argparse.Namespace) -> Scene:
     radius = options.wire_radius or [diameter / 2.0 for diameter in options.wire_diameter]
-    return Scene(
-        shear_modulus=options.shear_modulus,
-        toughness=options.toughness,
-        wire_radius=radius,
-        friction_coefficient=options.friction_coefficient,
-        wear_strength=options.wear_strength,
-        stiffening_exponent=options.stiffening_exponent,
-    )
+    material = read_material(options.material) if options.material else Material()
+    given = {name: value for name in _OF_MATERIAL if (value := getattr(options, name)) is not None}
+    if {"toughness", "wear_strength"} & given.keys():  # which are of no law in particular
+        given["law"] = None
+    material = replace(material, **given)
+    for name in ("shear_modulus", "toughness"):
+        if getattr(material, name) is None:
+            raise InputError(
+                f"--{name.replace('_', '-')} is missing; give it, or --material FILE with it."
+            )
+    return Scene.of_material(material, radius)
+
+
+_OF_MATERIAL = (
+    *("shear_modulus", "toughness", "wear_strength"),
+    *("friction_coefficient", "stiffening_exponent"),
+)
 
 
 def _in_diameters(options: argparse.Namespace) -> bool:
@@ -347,18 +364,22 @@ def _in_diameters(options: argparse.Namespace) -> bool:
     return bool(options.diameters or options.wire_diameter)
 
 
+def _noting(function: Callable[[], Any]) -> tuple[Any, list[str]]:
+    """Return what a function returns, and what it warns of another law, in options' words."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("ignore", ImplausibleInputWarning)
+        warnings.simplefilter("always", OtherLawWarning)
+        result = function()
+    told = [str(each.message).rstrip(".") for each in caught]
+    return result, [re.sub(r"\blaw='(\w+)'", r"--law \1", words) for words in told]
+
+
 def run_force(options: argparse.Namespace) -> int:
     if options.thickness == 0.0:
         raise InputError("the sample's thickness must be positive; give --thickness 20mm or so.")
     scene = _scene(options)
-    force = cutting_force(
-        scene,
-        options.model,
-        options.rtol,
-        options.extrapolate,
-        options.law,
-        notch_radius=options.notch_radius,
-    )
+    choice = options.model, options.rtol, options.extrapolate, options.law
+    force, notes = _noting(lambda: cutting_force(scene, *choice, notch_radius=options.notch_radius))
     wide = _in_diameters(options)
     if options.plot and options.notch_radius is not None:
         raise InputError(
@@ -380,6 +401,7 @@ def run_force(options: argparse.Namespace) -> int:
     any_law = options.law == AUTO and force.law_error is not None  # of closed forms it is none
     record = force_record(scene, force, options.thickness, any_law)
     record |= {"picture": options.plot, "notch_radius": options.notch_radius}
+    record["notes"] += notes
     return print_answer(
         options, record, lambda record: _with_picture(force_text(record, wide), record)
     )
@@ -391,9 +413,10 @@ def _with_picture(text: str, record: Record) -> str:
 
 def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
-    choice = options.model, options.rtol, options.extrapolate
-    regime = classify(scene, options.threshold, *choice, options.law, options.notch_radius)
+    choice = options.model, options.rtol, options.extrapolate, options.law, options.notch_radius
+    regime, notes = _noting(lambda: classify(scene, options.threshold, *choice))
     record = regime_record(scene, regime, options.model)
+    record["notes"] += notes
     wide = _in_diameters(options)
     return print_answer(options, record, lambda record: regime_text(record, wide))
 

@@ -53,6 +53,8 @@ def run_identify(options: argparse.Namespace) -> int:
         raise InputError("--example is one gel of its own; leave out --by and FILE.")
     if len(options.file) < 2 and not options.by:
         return run_one(options)
+    if options.write_material:
+        raise InputError("--write-material is for one gel, but there are several; leave it out.")
     pairs_file = _beside(options.csv) if options.csv else None
     check_outputs(
         {**outputs_of(options), "--csv, the pairs": pairs_file},

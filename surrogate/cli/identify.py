@@ -7,9 +7,12 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import fields, replace
+from pathlib import Path
 from typing import Any
 
-from surrogate.basics.files import check_outputs, model_file
+import numpy as np
+
+from surrogate.basics.files import check_outputs, model_file, written_whole
 from surrogate.cli.common import (
     DOUBTED,
     add_friction_and_stiffening,
@@ -174,6 +177,12 @@ def add_identify_options(command: argparse.ArgumentParser) -> None:
         help="write the fitted line and its band; of several gels one row of results for each, and "
         "into NAME-pairs.csv beside it one row for each pair",
     )
+    add(
+        "--write-material",
+        metavar="FILE",
+        help="write what is known of the gel, toughness, wear strength and their law with it "
+        "(JSON), for 'wirecut force --material FILE'",
+    )
     add_table_options(command, thickness="append")
     add_record_options(command)
 
@@ -198,7 +207,11 @@ _OF_RECORDS = ("name", "wires", "tare", "start", "end", "sign", "speed", "column
 
 def outputs_of(options: argparse.Namespace) -> dict[str, str | None]:
     """Return the files to write by the options that name them."""
-    return {"--plot": options.plot, "--csv": options.csv}
+    return {
+        "--plot": options.plot,
+        "--csv": options.csv,
+        "--write-material": options.write_material,
+    }
 
 
 def measurements_by_options(options: argparse.Namespace, file: str) -> Measurements:
@@ -282,6 +295,8 @@ def run_one(options: argparse.Namespace) -> int:
         "forces": origin,
         "picture": options.plot,
     }
+    if options.write_material:
+        _write_material(options.write_material, os.fspath(file), material, fit)
     record |= identification_record(fit, material, options.example)
     record["verbose"] = options.verbose
     print_record(options, record, identification_text)
@@ -321,6 +336,41 @@ def identified(
     return fit, material
 
 
+_NOT_OF_OPTIONS = ("shear_modulus", "toughness", "wear_strength", "law")
+"""What an identification finds, or reads by itself: options of these names are something else."""
+
+
+def _with_estimates(material: Material, fit: Identification) -> Material:
+    """Return a material with what was identified, and the law that it is of."""
+    std = fit.toughness_std, fit.wear_strength_std
+    gamma, tau = (float(one) if np.isfinite(one) else None for one in std)
+    return replace(
+        material,
+        friction_coefficient=fit.friction_coefficient,
+        stiffening_exponent=fit.stiffening_exponent,
+        toughness=fit.toughness,
+        toughness_std=gamma,
+        wear_strength=fit.wear_strength,
+        wear_strength_std=tau,
+        law=fit.law,
+    )
+
+
+def _write_material(file: str, measurements: str, material: Material, fit: Identification) -> None:
+    """Write what is known of a gel, with what its cuts said, for `wirecut force --material`."""
+    if min(fit.toughness, fit.wear_strength) < 0.0:
+        raise InputError(
+            f"{file} is not written, as an estimate is negative: toughness {fit.toughness:.4g} "
+            f"J/m2, wear strength {fit.wear_strength:.4g} Pa; leave --write-material out."
+        )
+    name = os.path.splitext(os.path.basename(measurements))[0]
+    source = f"wirecut identify {os.path.basename(measurements)}, law {fit.law}: {fit.law_reason}"
+    with written_whole(file) as new:
+        Path(new).write_text(
+            _with_estimates(material, fit).to_json(name, source) + "\n", encoding="utf-8"
+        )
+
+
 def _material(options: argparse.Namespace) -> Material:
     """Return the properties of the material's file, replaced by those that options give."""
     material = Material()
@@ -331,7 +381,7 @@ def _material(options: argparse.Namespace) -> Material:
     given = {
         field.name: value
         for field in fields(Material)
-        if field.name != "shear_modulus"
+        if field.name not in _NOT_OF_OPTIONS
         if (value := getattr(options, field.name, None)) is not None
     }
     # A value from the command line comes without the standard error of the one it replaces.

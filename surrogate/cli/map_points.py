@@ -171,7 +171,7 @@ def _identified_again(record: Record, model: str, law: str) -> Identification:
 
 def _material(options: argparse.Namespace, fixed: Mapping[str, float]) -> Material:
     material = read_material(options.material) if options.material else Material()
-    given = {name: fixed[name] for name in _SOLID if name in fixed}
+    given: dict[str, Any] = {name: fixed[name] for name in _SOLID if name in fixed}
     stated = {name: value for name in given if (value := getattr(material, name)) is not None}
     if stated:
         name = next(iter(stated))

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from surrogate.basics.files import file_name, read_archive, sha256
 from surrogate.errors import InputError
 
-__all__ = ["FILE", "REMEDY", "SCHEMA", "content_of", "read_fitted"]
+__all__ = ["FILE", "REMEDY", "SCHEMA", "complete", "content_of", "read_fitted"]
 
 FILE = "surrogates.npz"
 _FAMILY, _VERSION = "wirecut-surrogates-", 2
@@ -25,6 +26,35 @@ SCHEMA = f"{_FAMILY}{_VERSION}"
 _READ = ("1", "2")  # the first version has neither A* nor B*, nor digests
 _ABOUT, _DIGESTS = "about", "digests"
 REMEDY = "install wirecut again, or make the file anew with regen-surrogate"
+
+
+@contextmanager
+def complete(what: str, command: str) -> Iterator[None]:
+    """Raise an `InputError` where what a file holds turns out to lack something.
+
+    Parameters
+    ----------
+    what : str
+        What it is of, with "must be complete".
+    command : str
+        What makes the file anew.
+
+    Examples
+    --------
+    >>> with complete("kappa", "a command"):
+    ...     float({}["radius"])
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: kappa must be complete, but KeyError('radius') was met; install \
+wirecut again, or make the file anew with a command.
+    """
+    try:
+        yield
+    except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
+        raise InputError(
+            f"{what} must be complete, but {error!r} was met; install wirecut again, or make the "
+            f"file anew with {command}."
+        ) from None
 
 
 def content_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> bytes:

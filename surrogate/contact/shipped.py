@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from surrogate.basics.files import file_name, models_folder
-from surrogate.contact.archive import FILE, SCHEMA, content_of, read_fitted
+from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS, coordinates
 from surrogate.contact.domain import Domain
@@ -138,7 +138,7 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
     InputError
         If something is missing or of the wrong shape.
     """
-    try:
+    with complete("the fitted models", "regen-surrogate"):
         ends = about["domain"]
         limits = Domain(
             _pair(ends["g"]),
@@ -163,11 +163,6 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
         )
         _require_answers(fitted)
         return fitted
-    except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
-        raise InputError(
-            f"the fitted models must be complete, but {error!r} was met; install wirecut again, "
-            "or make the file anew with regen-surrogate."
-        ) from None
 
 
 #: Where the answers of a file are compared: shares of the domain in ln g and in ln alpha.

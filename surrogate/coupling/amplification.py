@@ -98,6 +98,16 @@ class Amplification:
     lowest: float = 0.0
     highest: float = sys.float_info.max
 
+    def most_wear(self, alpha: float) -> float:
+        """Return the largest tau_w/mu of any steady solution near alpha, whatever the rest.
+
+        nan where the file does not tell, or where wear was followed to the end of the campaign.
+        """
+        for low, high, wear in self.about.get("most_wear", ()):
+            if low <= alpha <= high:
+                return float(wear)
+        return float("nan")
+
     def log_factor(self, g: Any, alpha: Any, xi: Any, wear: Any) -> Any:
         """Return ln kappa; with the nearest load, g and alpha that are known where these are not.
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from surrogate.basics.checks import SMALLEST, Quantity
 from surrogate.basics.elementwise import product, quotient, ratio, where
-from surrogate.contact.archive import read_fitted
+from surrogate.contact.archive import complete, read_fitted
 from surrogate.contact.fitted import SLIP, FittedModel
 from surrogate.contact.shipped import folder_in_use
 from surrogate.coupling.model import OverSlip
@@ -196,7 +196,7 @@ def notch_slip_of(about: Mapping[str, Any]) -> NotchSlip:
     InputError
         If something is missing.
     """
-    try:
+    with complete(NOTCH_FILE, "scripts/study-notches"):
         a, b, c = map(float, about["pressure"])
         return NotchSlip(
             float(about["radius"]),
@@ -212,8 +212,3 @@ def notch_slip_of(about: Mapping[str, Any]) -> NotchSlip:
                 for name, each in about["errors"].items()
             },
         )
-    except (KeyError, ValueError, TypeError, AttributeError) as error:
-        raise InputError(
-            f"{NOTCH_FILE} must be complete, but {error!r} was met; install wirecut again, or make "
-            "the file anew with scripts/study-notches."
-        ) from None

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from surrogate.contact.archive import content_of, read_fitted
+from surrogate.contact.archive import complete, content_of, read_fitted
 from surrogate.contact.shipped import FILE, folder_in_use
 from surrogate.coupling.amplification import Amplification
 from surrogate.coupling.polynomial import Polynomial
@@ -55,7 +55,7 @@ def amplification_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Amp
     InputError
         If something is missing or of the wrong shape.
     """
-    try:
+    with complete(AMPLIFICATION_FILE, "python -m fe_training.coupled --fit"):
         axes = tuple(arrays[f"axis.{name}"] for name in "xyz")
         first, second = (tuple(map(float, each)) for each in about["edges"])
         xi, wear = map(float, about["largest"])
@@ -73,12 +73,7 @@ def amplification_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Amp
             float(about["highest"]),
         )
         _require_shapes(kappa)
-    except (KeyError, ValueError, TypeError, IndexError, AttributeError) as error:
-        raise InputError(
-            f"{AMPLIFICATION_FILE} must be complete, but {error!r} was met; install wirecut again, "
-            "or make the file anew with python -m fe_training.coupled --fit."
-        ) from None
-    return kappa
+        return kappa
 
 
 def _require_shapes(kappa: Amplification) -> None:

@@ -23,6 +23,8 @@ from surrogate.choosing.by_name import AUTO, force_model, is_auto
 from surrogate.choosing.effective import warn_of_law
 from surrogate.choosing.laws import COUPLED, AnyLaw, of_law, require_known_load
 from surrogate.contact.base import ForceModel
+from surrogate.contact.fitted import FittedModel
+from surrogate.cutting.outside import blanked, is_nan
 from surrogate.equations import RELATIVE_WEAR_STRENGTH
 
 __all__ = ["dissipative_force"]
@@ -37,6 +39,7 @@ def dissipative_force(
     rtol: float | None = None,
     extrapolate: bool = False,
     law: str = AUTO,
+    outside: str = "raise",
 ) -> FloatOrArray:
     """Return the dimensionless dissipative force F_d/(mu R_w T), Eqs. (9), (11) and (13).
 
@@ -60,6 +63,8 @@ def dissipative_force(
     law : str, default "auto"
         Which functions of the contact wear and friction follow, as in `cutting_force`; with "auto"
         the error that has to do is relative to this force, without the cleavage.
+    outside : str, default "raise"
+        As in `cutting_force`: "nan" for nan where the model does not hold, and not an error.
 
     Returns
     -------
@@ -106,53 +111,61 @@ def dissipative_force(
     """
     rtol = None if rtol is None else one_number(RTOL, rtol)
     extrapolate = flag("extrapolate", extrapolate)
+    blank = is_nan(outside) and not extrapolate
+    stays = blank or extrapolate
     values = (g, alpha, friction_coefficient, relative_wear_strength)
     wanted = of_law(model, law, any_law=True)
     any_law = isinstance(wanted, AnyLaw)
     chosen = force_model("table" if is_auto(wanted) else wanted.contact if any_law else wanted)
-    in_g, in_alpha = chosen.accepted(extrapolate)
+    fitted = isinstance(chosen, FittedModel)
+    in_g, in_alpha = chosen.accepted(extrapolate or (blank and fitted))
     quantities = (in_g, _as_alpha(in_alpha), FRICTION_COEFFICIENT, RELATIVE_WEAR_STRENGTH)
     if any_law or is_auto(wanted):
         checked = tuple(q.checked(value) for q, value in zip(quantities, values, strict=True))
         broadcast_shape(tuple(q.name for q in quantities), checked)
         if any_law:
-            return _lawful_dissipation(checked, wanted, rtol, extrapolate)
-        return _automatic_dissipation(checked, rtol, extrapolate)
+            return _lawful_dissipation(checked, wanted, rtol, stays, blank)
+        return _automatic_dissipation(checked, rtol, stays, blank)
 
     def dissipation(g: Any, alpha: Any, xi: Any, relative_wear: Any) -> Any:
         friction, wear = chosen.terms(1.0, g, 1.0, xi, relative_wear, alpha)  # in units of mu R_w
         return friction + wear
 
     force = evaluate_checked(dissipation, quantities, values)
-    if chosen.law == COUPLED and not extrapolate:
-        g, alpha, xi, wear = (q.checked(v) for q, v in zip(quantities, values, strict=True))
-        require_known_load(chosen, (1.0, g, 1.0, xi, wear, alpha))
+    if not (fitted and (blank or (chosen.law == COUPLED and not extrapolate))):
+        return force
+    g, alpha, xi, wear = (q.checked(v) for q, v in zip(quantities, values, strict=True))
+    scene = 1.0, g, 1.0, xi, wear, alpha
+    if blank:
+        return blanked(force, chosen.in_domain(*scene))  # type: ignore[no-any-return]
+    require_known_load(chosen, scene)
     return force
 
 
 def _automatic_dissipation(
-    values: tuple[Any, ...], rtol: float | None, extrapolate: bool
+    values: tuple[Any, ...], rtol: float | None, stays: bool, blank: bool
 ) -> FloatOrArray:
     from surrogate.choosing.auto import AutomaticTerms
 
     scene = _of_unit_wire(values)
     automatic = AutomaticTerms(scene, rtol, of_dissipation=True)
-    friction, wear, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
-    automatic.finish(extrapolate)
-    return friction + wear  # type: ignore[no-any-return]
+    friction, wear, holds, *_ = apply(automatic, scene, automatic.dtypes, AT_ONCE)
+    automatic.finish(stays)
+    return blanked(friction + wear, holds if blank else True)  # type: ignore[no-any-return]
 
 
 def _lawful_dissipation(
-    values: tuple[Any, ...], model: AnyLaw, rtol: float | None, extrapolate: bool
+    values: tuple[Any, ...], model: AnyLaw, rtol: float | None, stays: bool, blank: bool
 ) -> FloatOrArray:
     from surrogate.choosing.auto_law import LawfulTerms
 
     scene = _of_unit_wire(values)
     lawful = LawfulTerms(scene, rtol, of_dissipation=True, named=model.named)
-    friction, wear, *_, of_law = apply(lawful, scene, lawful.dtypes, AT_ONCE)
-    lawful.finish(extrapolate)
-    warn_of_law(np.isnan(of_law), "the dissipative force", depth=4)
-    return friction + wear  # type: ignore[no-any-return]
+    friction, wear, holds, *_, of_law = apply(lawful, scene, lawful.dtypes, AT_ONCE)
+    lawful.finish(stays)
+    hidden = np.logical_not(holds) & blank
+    warn_of_law(np.isnan(of_law) & ~hidden, "the dissipative force", depth=4)
+    return blanked(friction + wear, ~hidden)  # type: ignore[no-any-return]
 
 
 def _of_unit_wire(values: tuple[Any, ...]) -> tuple[Any, ...]:

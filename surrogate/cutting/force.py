@@ -14,7 +14,6 @@ from surrogate.basics.checks import (
     FloatOrArray,
     flag,
     one_number,
-    shown,
 )
 from surrogate.basics.elementwise import AT_ONCE, WHOLE, apply
 from surrogate.basics.records import LateRecord
@@ -31,7 +30,7 @@ from surrogate.contact.domain import require_inside
 from surrogate.contact.fitted import FittedModel
 from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.other_law import law_for, warn_of_other_law
-from surrogate.errors import InputError
+from surrogate.cutting.outside import is_nan
 from surrogate.scene import Scene, require_scene
 
 __all__ = ["CuttingForce", "cutting_force", "force_of", "warn_if_other_law"]
@@ -280,7 +279,7 @@ def force_of(
     """
     rtol = None if rtol is None else one_number(RTOL, rtol)
     extrapolate = flag("extrapolate", extrapolate)
-    stays = extrapolate or _is_nan(outside)
+    stays = is_nan(outside) or extrapolate
     if isinstance(model, AnyLaw):
         require_scene(scene)
         return _blanked(_lawful(scene, model, rtol, stays), scene, stays and not extrapolate)
@@ -314,15 +313,6 @@ def force_of(
         *(total, cleavage, friction, wear, name, holds, name, law, law, ()),
     )
     return _blanked(force, scene, fitted and stays and not extrapolate)
-
-
-def _is_nan(outside: object) -> bool:
-    if isinstance(outside, str) and outside in ("raise", "nan"):
-        return outside == "nan"
-    raise InputError(
-        f"outside must be 'raise' or 'nan', but is {shown(outside)}; give 'nan' for no number "
-        "where a model does not hold."
-    )
 
 
 def _blanked(force: CuttingForce, scene: Scene, blank: bool) -> CuttingForce:

@@ -19,6 +19,7 @@ from surrogate.contact.fitted import FittedModel
 from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.force import warn_if_other_law
 from surrogate.cutting.other_law import law_for
+from surrogate.cutting.outside import blanked, is_nan
 from surrogate.scene import NAMES, Scene, require_scene
 
 __all__ = ["ForceGradient", "force_gradient"]
@@ -86,6 +87,7 @@ def force_gradient(
     extrapolate: bool = False,
     law: str = AUTO,
     notch_radius: float | None = None,
+    outside: str = "raise",
 ) -> ForceGradient:
     """Return the analytic derivatives of the cutting force by every quantity of a scene.
 
@@ -121,6 +123,9 @@ def force_gradient(
     notch_radius : float, optional
         Radius of the crack's tip [m], with law="slip", as in `cutting_force`; it stays where the
         wire's radius changes.
+    outside : str, default "raise"
+        As in `cutting_force`: "nan" for nan where the model does not hold or a derivative has no
+        limit, and not an error.
 
     Returns
     -------
@@ -170,12 +175,15 @@ def force_gradient(
     ('table', True)
     """
     extrapolate = flag("extrapolate", extrapolate)
+    blank = is_nan(outside) and not extrapolate
     require_scene(scene)
     law = law_for(scene, law)
     by_law = parted(model, law, rtol, scene.values(), notch_radius)
     chosen = by_law.model
     if not isinstance(chosen, FittedModel):
         chosen.stiffening.checked(scene.stiffening_exponent)
+    elif blank:
+        pass  # what is outside has no number in the end
     elif not extrapolate:  # the slopes by xi and tau_w need the contact where both are 0, too
         mu, gamma, radius, _, _, alpha = scene.values()
         require_inside(chosen, (mu, gamma, radius, 1.0, 1.0, alpha))
@@ -184,8 +192,11 @@ def force_gradient(
         chosen.require_known(scene.values())
     with np.errstate(all="ignore"):
         slopes = by_law.evaluate(lambda one, part: apply(one.gradient, part, (float,) * 6))
+    if blank and isinstance(chosen, FittedModel):
+        holds = chosen.in_domain(*scene.values())
+        slopes = tuple(blanked(slope, holds) for slope in slopes)
     remedy = "give a toughness, and a modulus and a radius of the wire, or choose 'eq13'"
-    for name, slope in zip(NAMES, slopes, strict=True):
+    for name, slope in zip(NAMES, slopes, strict=True) if not blank else ():
         defined(f"derivative by {name}", slope, remedy)
     warn_of_scene(scene.values())
     warn_if_other_law(scene, model, law)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -42,6 +42,8 @@ DOMINANCES = (TRANSITION, "toughness-and-friction", "wear", "friction-stiffness"
 
 PARTS = (TRANSITION, "cleavage", "friction", "wear")
 """What can dominate by other models, whose friction is one term."""
+
+UNKNOWN = "unknown"
 
 CONTACTS = ("far-field", "indentation")
 
@@ -108,6 +110,7 @@ def classify(
     extrapolate: bool = False,
     law: str = AUTO,
     notch_radius: float | None = None,
+    outside: str = "raise",
 ) -> Regime:
     """Return which term of the force dominates, and whether the wire touches the crack tip.
 
@@ -130,6 +133,9 @@ def classify(
         each cut is classified by the law of its own force, which `laws` of the result tells.
     notch_radius : float, optional
         Radius of the crack's tip [m], with law="slip", as in `cutting_force`.
+    outside : str, default "raise"
+        As in `cutting_force`: "nan" for the dominant term "unknown" where the model does not hold,
+        and not an error.
 
     Returns
     -------
@@ -186,10 +192,13 @@ def classify(
     warn_if_other_law(scene, model, law)
     model = of_law(model, law, True, notch_radius)
     split = isinstance(model, str) and model == SPLIT_MODEL
-    force = None if split else force_of(scene, model, rtol, extrapolate)
+    force = None if split else force_of(scene, model, rtol, extrapolate, outside)
     regime = regime_of(scene, force, share, model)
     warn_of_scene(scene.values())
-    return regime
+    if force is None or not np.any(unknown := np.isnan(force.total)):
+        return regime
+    dominant = np.where(unknown, UNKNOWN, regime.dominant)
+    return replace(regime, dominant=dominant if dominant.ndim else str(dominant))
 
 
 def regime_of(

@@ -15,6 +15,7 @@ from surrogate.basics.checks import (
     TOUGHNESS,
     WORK_OF_FRACTURE,
     FloatOrArray,
+    common_shape,
     defined,
 )
 from surrogate.basics.elementwise import (
@@ -34,6 +35,7 @@ from surrogate.contact.fitted import FittedModel
 from surrogate.cutting.believable import warn_of_scene
 from surrogate.cutting.model_transition import transition_under, under_best_law
 from surrogate.cutting.other_law import law_for
+from surrogate.cutting.outside import is_nan, spared
 from surrogate.scene import Scene, require_scene
 
 __all__ = [
@@ -46,7 +48,11 @@ __all__ = [
 
 
 def transition_radius(
-    scene: Scene, model: str | ForceModel = AUTO, rtol: float | None = None, law: str = AUTO
+    scene: Scene,
+    model: str | ForceModel = AUTO,
+    rtol: float | None = None,
+    law: str = AUTO,
+    outside: str = "raise",
 ) -> FloatOrArray:
     """Return the radius at which the two parts of the force are equal, those of Eq. (13) or others.
 
@@ -71,6 +77,9 @@ def transition_radius(
         Which functions of the contact wear and friction follow, as in `cutting_force`. Both parts
         are of one law: with "auto" of "coupled" where coupled solutions reach to the radius that
         it gives, and else of "projected", whose radius goes with an effective wear strength.
+    outside : str, default "raise"
+        What becomes of scenes whose radius the model does not reach or that have none: "raise" for
+        an error, "nan" for nan.
 
     Returns
     -------
@@ -119,18 +128,31 @@ def transition_radius(
     True
     """
     require_scene(scene)
+    blank = is_nan(outside)
     mu, gamma, _, xi, tau = scene.values()[:5]
     warn_of_scene((mu, gamma, 0.0, xi, tau))  # the radius plays no part
     chosen = of_law(model, law_for(scene, law), any_law=True)
-    if not isinstance(chosen, AnyLaw):
-        return transition_radius_of(scene, chosen, rtol)
-    one = one_model(chosen.named or AUTO, rtol)
-    if not isinstance(one, FittedModel):
-        return transition_radius_of(scene, one)
-    radius, known = under_best_law(one, (mu, gamma, xi, tau, scene.stiffening_exponent))
+    one = one_model(chosen.named or AUTO if isinstance(chosen, AnyLaw) else chosen, rtol)
+    quantities = mu, gamma, xi, tau, scene.stiffening_exponent
+    if not (isinstance(chosen, AnyLaw) and isinstance(one, FittedModel)):
+        if blank:
+            return _spared(lambda columns: (_radius_under(one, tuple(columns)),), quantities, 1)[0]  # type: ignore[no-any-return]
+        return _defined(_radius_under(one, quantities))
+    if blank:
+        radius, known = _spared(lambda columns: under_best_law(one, tuple(columns)), quantities, 2)
+    else:
+        radius, known = under_best_law(one, quantities)
     depends = np.isfinite(radius) & np.not_equal(radius, 0.0)
-    warn_of_law(depends & ~known, "the transition radius")
-    return _defined(radius)
+    warn_of_law(depends & np.not_equal(known, 1.0), "the transition radius")
+    return radius if blank else _defined(radius)
+
+
+def _spared(function: Any, quantities: tuple[FloatOrArray, ...], number: int) -> tuple[Any, ...]:
+    """Return the results of scenes, nan for those that are refused."""
+    shape = common_shape(quantities)
+    columns = [np.array(np.broadcast_to(each, shape), dtype=float).ravel() for each in quantities]
+    found = spared(function, columns, number)
+    return tuple(each.reshape(shape) if shape else float(each[0]) for each in found)
 
 
 def transition_radius_of(
@@ -148,13 +170,17 @@ def transition_radius_of(
         scene.toughness,
         scene.friction_coefficient,
         scene.wear_strength,
+        scene.stiffening_exponent,
     )
-    chosen = one_model(model, rtol)
+    return _defined(_radius_under(one_model(model, rtol), quantities))
+
+
+def _radius_under(chosen: ForceModel, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
+    """Return the radius by a model; nan where every one would do."""
     if chosen.name == "eq13":
-        radius = apply(_transition, quantities)
-    else:
-        radius = _under(chosen, (*quantities, scene.stiffening_exponent))
-    return _defined(radius)
+        return apply(_transition, quantities[:4])  # type: ignore[no-any-return]
+    chosen.stiffening.checked(quantities[4])
+    return transition_under(chosen, quantities)
 
 
 def _defined(radius: FloatOrArray) -> FloatOrArray:
@@ -257,11 +283,6 @@ def fracto_cohesive_transition_radius(
     radius = evaluate_checked(_quarter, quantities, (toughness, work_of_fracture))
     remedy = "give a toughness or a work of fracture"
     return defined("fracto_cohesive_transition_radius", radius, remedy)
-
-
-def _under(chosen: ForceModel, quantities: tuple[FloatOrArray, ...]) -> FloatOrArray:
-    chosen.stiffening.checked(quantities[4])
-    return transition_under(chosen, quantities)
 
 
 def _transition(mu: Any, gamma: Any, xi: Any, wear: Any) -> Any:

@@ -101,6 +101,7 @@ def propagate(
     correlation: Correlations | None = None,
     law: str = AUTO,
     notch_radius: float | None = None,
+    outside: str = "raise",
 ) -> UncertainForce:
     """Return the cutting force with its standard deviation, from those of the scene's quantities.
 
@@ -132,6 +133,8 @@ def propagate(
         nobody knows the error of the law, `std` is without it, and `doubts` says so.
     notch_radius : float, optional
         Radius of the crack's tip [m], with law="slip", as in `cutting_force`.
+    outside : str, default "raise"
+        As in `cutting_force`: "nan" for nan where the model does not hold, and not an error.
 
     Returns
     -------
@@ -187,7 +190,7 @@ def propagate(
     by_law = parted(model, law, rtol, scene.values(), notch_radius)
     errors = _checked(std)
     rho = correlation_matrix(list(errors), {} if correlation is None else correlation)
-    gradient = force_gradient(scene, model, rtol, extrapolate, law, notch_radius)
+    gradient = force_gradient(scene, model, rtol, extrapolate, law, notch_radius, outside)
     broadcast_shape(
         ("scene", *(f"std of {name}" for name in errors)),
         (np.zeros(scene.shape) if scene.shape else 0.0, *errors.values()),
@@ -195,7 +198,7 @@ def propagate(
     signed = {name: _times(getattr(gradient, name), error) for name, error in errors.items()}
     stds = by_law.evaluate(_model_std)
     model_std = None if stds is None else stds[0]
-    (total,) = by_law.evaluate(lambda one, part: (_total(one, part, extrapolate),))
+    (total,) = by_law.evaluate(lambda one, part: (_total(one, part, extrapolate, outside),))
     return UncertainForce(
         _number(total),
         _combined(list(signed.values()), rho, model_std, scene.shape),
@@ -208,8 +211,10 @@ def propagate(
     )
 
 
-def _total(model: ForceModel, scene: tuple[Any, ...], extrapolate: bool) -> FloatOrArray:
-    return force_of(Scene(*scene), model, extrapolate=extrapolate).total
+def _total(
+    model: ForceModel, scene: tuple[Any, ...], extrapolate: bool, outside: str
+) -> FloatOrArray:
+    return force_of(Scene(*scene), model, None, extrapolate, outside).total
 
 
 def _checked(std: object) -> dict[str, FloatOrArray]:

@@ -253,7 +253,9 @@ def _materials(
     if isinstance(expected, Identification):
         own = model is None and law is None
         named = force_model(expected.model).name if model is None else model
-        chosen = expected.model if own else _under(named, law or expected.law, rtol)
+        chosen = (
+            expected.model if own else _under(named, expected.law if law is None else law, rtol)
+        )
         if "shear_modulus" in expected.assumed:
             raise InputError(
                 "expected must have a shear modulus, but none was given to identify; give it there."
@@ -261,7 +263,8 @@ def _materials(
         toughness, wear = _admitted(expected)
         return Materials(toughness, wear, expected.cuts), chosen
     require_scene(expected, "expected")
-    chosen = _under(AUTO if model is None else model, law or expected.law or PROJECTED, rtol)
+    own_law = expected.law or PROJECTED
+    chosen = _under(AUTO if model is None else model, own_law if law is None else law, rtol)
     solid = (expected.shear_modulus, expected.friction_coefficient, expected.stiffening_exponent)
     if not all(isinstance(value, float) for value in solid):
         raise InputError(

@@ -1,4 +1,4 @@
-"""The properties of a material out of a JSON file whose names carry the units."""
+"""The properties of a material in a JSON file whose names carry the units."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.basics.checks import LAWS
 from surrogate.basics.files import file_name, opened
 from surrogate.errors import InputError
 from surrogate.reading import plausibility
@@ -37,13 +38,19 @@ PROPERTIES: dict[str, Dimension] = {
     "work_of_fracture_std": ENERGY_DENSITY,
     "friction_coefficient": NUMBER,
     "stiffening_exponent": NUMBER,
+    "toughness": TOUGHNESS,
+    "toughness_std": TOUGHNESS,
+    "wear_strength": STRESS,
+    "wear_strength_std": STRESS,
 }
 """Quantities that a file of material properties may hold."""
+
+_SI = {STRESS.name: "Pa", TOUGHNESS.name: "J_per_m2", ENERGY_DENSITY.name: "J_per_m3"}
 
 
 @dataclass(frozen=True)
 class Material:
-    """Properties of a gel measured by other tests than cutting; None where not measured.
+    """Properties of a gel, by other tests and as identified from cuts; None where unknown.
 
     Parameters
     ----------
@@ -57,6 +64,13 @@ class Material:
         xi [-].
     stiffening_exponent : float or None
         alpha of the Ogden solid, Eq. (1) [-].
+    toughness, toughness_std : float or None
+        Gamma_o as identified from cuts, and its standard error [J/m2].
+    wear_strength, wear_strength_std : float or None
+        tau_w as identified from cuts, and its standard error [Pa].
+    law : str or None
+        The law of dissipation that these two were identified under, "projected", "slip" or
+        "coupled".
 
     Examples
     --------
@@ -72,6 +86,31 @@ class Material:
     work_of_fracture_std: float | None = None
     friction_coefficient: float | None = None
     stiffening_exponent: float | None = None
+    toughness: float | None = None
+    toughness_std: float | None = None
+    wear_strength: float | None = None
+    wear_strength_std: float | None = None
+    law: str | None = None
+
+    def to_json(self, name: str = "", source: str = "") -> str:
+        """Return the content of a file that `read_material` reads, in SI units.
+
+        Examples
+        --------
+        >>> print(Material(shear_modulus=685.0, law="slip").to_json("a gel"))
+        {
+         "schema": "wirecut-material-1",
+         "name": "a gel",
+         "shear_modulus_Pa": 685.0,
+         "law": "slip"
+        }
+        """
+        told: dict[str, Any] = {"schema": _MATERIAL_SCHEMA, "name": name, "source": source}
+        for quantity, dimension in PROPERTIES.items():
+            unit = _SI.get(dimension.name, "")
+            told[f"{quantity}_{unit}" if unit else quantity] = getattr(self, quantity)
+        told["law"] = self.law
+        return json.dumps({k: each for k, each in told.items() if each not in (None, "")}, indent=1)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -82,6 +121,7 @@ class Material:
                 (plausibility.SHEAR_MODULUS, self.shear_modulus),
                 (plausibility.TOUGHNESS, self.pure_shear_toughness),
                 (plausibility.WORK_OF_FRACTURE, self.work_of_fracture),
+                (plausibility.TOUGHNESS, self.toughness),
             )
             if value is not None
             for sentence in doubts(quantity, value)
@@ -93,8 +133,9 @@ def read_material(path: str | PathLike[str]) -> Material:
 
     Keys are ``schema`` ("wirecut-material-1"), ``name`` and ``source`` (text), and any of
     ``shear_modulus_<unit>``, ``pure_shear_toughness_<unit>``, ``work_of_fracture_<unit>``,
-    each with ``..._std_<unit>``, ``friction_coefficient`` and ``stiffening_exponent``, whose sign
-    plays no part.
+    ``toughness_<unit>``, ``wear_strength_<unit>``, each with ``..._std_<unit>``,
+    ``friction_coefficient``, ``stiffening_exponent``, whose sign plays no part, and ``law``, under
+    which toughness and wear strength were identified.
 
     Parameters
     ----------
@@ -120,7 +161,7 @@ def read_material(path: str | PathLike[str]) -> Material:
     (685.0, 6973.0)
     """
     file = file_name(path)
-    properties: dict[str, float] = {}
+    properties: dict[str, Any] = {}
     for key, value in _read_json_object(file):
         if key in ("name", "source"):
             continue
@@ -129,6 +170,15 @@ def read_material(path: str | PathLike[str]) -> Material:
                 raise InputError(
                     f"{file}: schema is {value!r} where only {_MATERIAL_SCHEMA!r} is known."
                 )
+            continue
+        if key == "law":
+            if isinstance(value, _Literal) or value not in LAWS:
+                raise InputError(
+                    f"{file}, key (law): {value!r:.40} is not one of {', '.join(LAWS)}; write one."
+                )
+            if "law" in properties:
+                raise InputError(f"{file}, key (law) gives the law again; keep one of them.")
+            properties["law"] = value
             continue
         quantity, unit = quantity_and_unit(f"{file}, key", key, PROPERTIES)
         if quantity in properties:

@@ -227,7 +227,7 @@ def test_version(capsys):
     [
         ("--json", "COMMAND"),
         ("cut", "invalid choice: 'cut'"),
-        ("force", "--shear-modulus"),
+        ("force", "--wire-radius"),
         (f"force {SCENE}", "--wire-radius"),
         (f"force {SCENE} --wire-radius 1mm --wire-diameter 2mm", "not allowed with"),
         (f"force {SCENE} --wire-radius 1furlong", "one of m, cm, mm, um"),
@@ -235,7 +235,7 @@ def test_version(capsys):
         (f"force {SCENE} --wire-radius 1mm --friction-coefficient 10%", "no unit"),
         (f"force {SCENE} --wire-radius 1mm --model eq99", "eq99"),
         (f"force {SCENE} --wire-radius 1e400", "beyond a computer's range"),
-        ("force --shear 685Pa --toughness 1 --wire-radius 1mm", "--shear-modulus"),
+        ("force --shear 685Pa --toughness 1 --wire-radius 1mm", "arguments: --shear"),
         ("identify", "FILE"),
         ("identify missing.csv --shear-modulus 1Pa", "missing.csv cannot be read"),
         (f"identify {model_file('paam-wire-cutting.csv')}", "shear modulus is missing"),

@@ -7,10 +7,11 @@ import h5py
 import numpy as np
 import pytest
 
+from fe_training.campaign.workers import Workers
 from fe_training.coupled.__main__ import main
 from fe_training.coupled.dataset import COLUMNS, collected, read_coupled
 from fe_training.coupled.design import Placed, read_design
-from fe_training.coupled.run import again, run_base, waiting
+from fe_training.coupled.run import again, run_base, run_coupled, waiting
 from fe_training.coupled.store import CoupledStore
 from fe_training.sliding.record import SlidingOutcome, SlidingRecord
 from fe_training.solver.cut import Settings
@@ -26,14 +27,14 @@ def design():
     return replace(read_design(SHIPPED), bases=5, placed=())
 
 
-def solved(alpha, g, rays, settings, report):
+def solved(alpha, g, rays, settings, report, taper):
     """Report records without solving anything."""
     for ray in rays:
         for friction, wear in ray:
-            report(record(alpha, g, friction, wear))
+            report(record(alpha, g, friction, wear, taper))
 
 
-def record(alpha, g, friction, wear):
+def record(alpha, g, friction, wear, taper=0.0):
     return SlidingRecord(
         alpha=alpha,
         target=g,
@@ -41,6 +42,7 @@ def record(alpha, g, friction, wear):
         target_wear=wear,
         outcome=SlidingOutcome.CONVERGED,
         friction=friction,
+        ramp=taper * wear,
         energy_release_rate_across=(g, 1.1 * g),
     )
 
@@ -70,7 +72,7 @@ def test_a_base_that_was_interrupted_or_damaged_is_solved_again(design, tmp_path
 def test_a_load_that_raised_is_a_row_with_its_reason(design, tmp_path):
     base = design.all_bases()[0]
 
-    def broken(alpha, g, rays, settings, report):
+    def broken(alpha, g, rays, settings, report, taper):
         report(record(alpha, g, *rays[0][0]))
         raise ValueError("no such luck")
 
@@ -108,18 +110,42 @@ def test_placed_bases_stand_behind_the_sequence_with_rays_and_a_mesh_of_their_ow
         shares=(0.1, 1.0),
         settings=replace(design.settings, contact_spacing=0.05),
         finer=replace(design.settings, contact_spacing=0.02),
+        taper=0.5,
     )
     longer = replace(design, placed=(placed, placed))
     assert longer.hash == design.hash
     *sequence, _, last, third, _ = longer.all_bases()
     assert sequence == design.all_bases()
     assert (last.number, third.number) == (10_001, 11_000)
-    assert (last.alpha, last.g) == (3.0, 4.0)
+    assert (last.alpha, last.g, last.taper) == (3.0, 4.0, 0.5)
     assert last.rays == (((0.05, 0.0), (0.5, 0.0)), ((pytest.approx(0.01), 0.2), (0.1, 2.0)))
     assert third.rays[1][1] == (0.1, 0.5)
     assert longer.settings_of(last).contact_spacing == 0.05
     assert longer.settings_of(sequence[0]) == design.settings
     assert longer.on_finer_mesh().settings_of(last).contact_spacing == 0.02
+
+
+def test_tapered_bases_are_solved_so_and_no_fit_sees_them(design, tmp_path):
+    (first, *_) = design.all_bases()
+    run_base(replace(first, taper=0.5), design.settings, str(tmp_path), solved)
+    data = collected(design, CoupledStore(tmp_path))
+    assert data["ramp"] == pytest.approx(0.5 * data["target_wear"])
+    assert data.tapered[data["target_wear"] > 0.0].all()
+    assert not data.converged[data.tapered].any()
+
+
+def test_dask_workers_write_the_rows(design, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    bases = design.all_bases()
+    with distributed.LocalCluster(n_workers=2, processes=False, dashboard_address=None) as cluster:
+        run_coupled(
+            design,
+            CoupledStore(tmp_path),
+            bases,
+            Workers(scheduler=cluster.scheduler_address),
+            solved,
+        )
+    assert not waiting(design, CoupledStore(tmp_path))
 
 
 def test_a_base_whose_loads_changed_is_solved_again(design, tmp_path):

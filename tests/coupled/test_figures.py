@@ -7,8 +7,15 @@ import pytest
 from made_up_coupled import LARGEST, SHARES
 
 from fe_training.coupled.__main__ import main
-from fe_training.coupled.balance_picture import balance_figure
-from fe_training.coupled.figures import PICTURES, draw_pictures, ends_figure, kappa_figure, rays
+from fe_training.coupled.pictures.balance import balance_figure
+from fe_training.coupled.pictures.solutions import (
+    PICTURES,
+    draw_pictures,
+    ends_figure,
+    kappa_figure,
+    rays,
+)
+from fe_training.coupled.pictures.tip import friction_limits, places_with_notches, tip_figure
 from surrogate import InputError
 from surrogate.basics.figures import new_figure
 from surrogate.contact.archive import read_fitted
@@ -54,6 +61,29 @@ def test_a_path_without_an_equilibrium_is_not_drawn(made_up):
             None,
             None,
         )
+
+
+def with_three_notches(data):
+    """Made-up rows of one place with the notches of three bases, and the limits of friction."""
+    rows = np.flatnonzero(data["base"] < 3)
+    notch = np.array([1e-2, 1e-3, 1e-4])[data["base"][rows]]
+    here = changed(data, rows, alpha=2.0, target=3.0, notch_radius=notch, wear=0.0)
+    friction = np.array([0.04, 0.03, 0.02])
+    ends = [np.flatnonzero(here["base"] == i)[-1] for i in range(3)]
+    return changed(here, ends, outcome="LIMIT", friction=friction, wear=0.0)
+
+
+def test_the_limit_of_friction_is_shown_over_the_radius_of_the_notch(made_up):
+    data = with_three_notches(made_up)
+    ((place, radii),) = places_with_notches(data).items()
+    assert place == (2.0, 3.0)
+    assert radii.tolist() == [1e-2, 1e-3, 1e-4]
+    assert friction_limits(data, place, radii).tolist() == [0.04, 0.03, 0.02]
+    figure = new_figure((7.0, 3.0))
+    tip_figure(data, figure)
+    line = figure.axes[0].lines[0]
+    assert line.get_ydata().tolist() == [0.04, 0.03, 0.02]
+    assert not places_with_notches(made_up)
 
 
 def test_the_marks_of_kappa_are_the_rows(made_up, fitted_folder):

@@ -1,16 +1,20 @@
 """kappa fitted to made-up rows, its file and its card, by the command."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from made_up_coupled import log_kappa, rows_of_base
 
 from fe_training.coupled.__main__ import main
-from fe_training.coupled.card import CARD
+from fe_training.coupled.card import CARD, most_wear
 from fe_training.coupled.dataset import write_coupled
 from fe_training.coupled.fit import fit_amplification
 from fe_training.coupled.loads import LOAD_UNIT
 from fe_training.coupled.rows import rows_of
-from surrogate import InputError
+from surrogate import DomainError, InputError
+from surrogate.choosing.laws import require_known_load
 from surrogate.contact.archive import read_fitted
 from surrogate.coupling.amplification import load_of
 from surrogate.coupling.shipped import AMPLIFICATION_FILE, amplification_of
@@ -129,3 +133,26 @@ def test_a_second_fit_writes_the_same_bytes(fitted_folder, kappa):
 
     content = (fitted_folder.path / AMPLIFICATION_FILE).read_bytes()
     assert content_of_amplification(kappa) == content
+
+
+def test_the_largest_wear_is_told_of_alphas_at_which_all_paths_ended(made_up):
+    alpha, wanted = made_up["alpha"], made_up["target_wear"]
+    assert not most_wear(made_up)  # made-up paths reach all loads
+    low = alpha <= 3.0
+    ended = made_up.columns | {"wear": np.where(low, np.minimum(wanted, 0.4), wanted)}
+    ((first, last, wear),) = most_wear(type(made_up)(ended, made_up.attributes))
+    assert (first, last, wear) == (alpha.min(), 3.0, 0.4)
+
+
+def test_a_load_that_no_solution_carried_is_refused_with_the_largest_that_one_did(kappa):
+    told = replace(kappa, about={"most_wear": [[2.0, 3.0, 0.4]]})
+    model = SimpleNamespace(
+        law="coupled",
+        amplification=told,
+        require_known=lambda values: None,
+        in_domain=lambda *values: False,
+    )
+    for alpha, wear, said in ((2.5, 9e3, True), (2.5, 3e3, False), (4.0, 9e3, False)):
+        with pytest.raises(DomainError, match="load that coupled solutions reach") as raised:
+            require_known_load(model, (1e4, 1.0, 1e-3, 0.0, wear, alpha))
+        assert ("no wire slid steadily above tau_w/mu = 0.4" in str(raised.value)) is said

@@ -1,11 +1,12 @@
 """Asking for configurations that rub: bad input, the frictionless case, and where paths end."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fe_training.sliding.record import CREASE_STRETCH, SlidingOutcome
+from fe_training.sliding.record import BALANCE_BOUND, CREASE_STRETCH, SlidingOutcome
 from fe_training.sliding.solve import solve, solve_rays
 from fe_training.solver.cut import Settings
 from fe_training.solver.solve import solve as solve_frictionless
@@ -33,6 +34,12 @@ def test_input_outside_the_range_is_refused_with_its_name(bad):
         solve(**{"alpha": 5.0, "g": 2.0, **bad})
 
 
+@pytest.mark.parametrize("radius", [0.0, -1e-3, 0.5, np.nan])
+def test_a_notch_that_is_none_or_as_large_as_the_contact_is_refused(radius):
+    with pytest.raises(InputError, match=f"notch_radius = {radius:.6g} is outside"):
+        solve(5.0, g=1.0, settings=replace(COARSE, notch_radius=radius))
+
+
 def test_without_load_it_is_the_frictionless_configuration():
     record = solve(5.0, g=2.0, settings=COARSE)
     plain = solve_frictionless(5.0, g=2.0, settings=COARSE)
@@ -56,6 +63,31 @@ def test_a_way_that_ends_says_why_and_keeps_what_it_reached():
         assert not record.is_reached
         # the crease or close to it, whichever is met first on this mesh
         assert record.least_stretch < CREASE_STRETCH + 0.1
+
+
+def test_a_load_with_a_maximum_is_followed_around_it():
+    """With the tip in contact friction alone has a limit: the wire goes on, and xi falls."""
+    first, last = solve_rays(3.0, 4.0, [[(0.1, 0.0), (0.5, 0.0)]], COARSE)
+    assert (first.outcome, first.friction) == (SlidingOutcome.CONVERGED, 0.1)
+    assert last.outcome is SlidingOutcome.LIMIT
+    assert 0.1 < last.friction < 0.5
+    # the row is that of the maximum, where the position no longer decides J
+    assert abs(last.position_rate) < 0.1 * first.position_rate
+    assert last.amplification > first.amplification
+    assert last.balance_error < BALANCE_BOUND
+    largest, fallen = map(float, re.findall(r"xi = ([0-9.]+)", last.reason))
+    assert largest == pytest.approx(last.friction, rel=1e-3)
+    assert fallen < 0.995 * largest
+
+
+def test_tapered_wear_costs_a_part_of_the_shear_at_the_ends_alone():
+    (whole,), (tapered,) = (
+        solve_rays(5.0, 2.0, [[(0.0, 0.3)]], COARSE, taper=taper) for taper in (0.0, 0.5)
+    )
+    assert (whole.ramp, tapered.ramp) == (0.0, pytest.approx(0.15))
+    assert tapered.balance_error < BALANCE_BOUND
+    drag, less = (record.steady_force - 2.0 for record in (whole, tapered))
+    assert 0.95 * drag < less < drag
 
 
 @pytest.mark.slow

@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.campaign.dataset import Campaign
-from fe_training.coupled.balance_picture import SIZE, balance_figure
 from fe_training.coupled.dataset import CoupledData
+from fe_training.coupled.pictures.balance import SIZE, balance_figure
+from fe_training.coupled.pictures.tip import SIZE as TIP_SIZE
+from fe_training.coupled.pictures.tip import tip_figure
 from fe_training.figure_style import TOUGHNESS
 from fe_training.sliding.record import SlidingOutcome
 from surrogate import contact_functions
@@ -40,7 +42,7 @@ __all__ = ["PICTURES", "Ray", "draw_pictures", "ends_figure", "kappa_figure", "l
 
 Array = NDArray[np.float64]
 
-PICTURES = ("coupled-balance", "coupled-kappa", "coupled-laws", "coupled-ends")
+PICTURES = ("coupled-balance", "coupled-kappa", "coupled-laws", "coupled-ends", "coupled-tip")
 """Names of the pictures' files."""
 
 #: Marks of bases; a cross is where the tip touches the wire.
@@ -84,6 +86,8 @@ class Ray:
         Whether no fit sees it.
     outcome : str
         How it ended.
+    tapered : bool
+        Whether wear rises from nothing at the ends of the contact.
     friction, wear, kappa : ndarray
         xi, tau_w/mu and kappa [-].
     touches : ndarray of bool
@@ -96,6 +100,7 @@ class Ray:
     direction: float
     held_out: bool
     outcome: str
+    tapered: bool
     friction: Array
     wear: Array
     kappa: Array
@@ -136,6 +141,7 @@ def _ray(data: CoupledData, rows: NDArray[np.int64], direction: float) -> Ray | 
         direction,
         bool(data["held_out"][last]),
         str(data["outcome"][last]),
+        bool(data.tapered[some].any()),
         data["friction"][some],
         data["wear"][some],
         data.amplification[some],
@@ -173,7 +179,7 @@ def kappa_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> Non
     figure : matplotlib.figure.Figure
         Where to draw.
     """
-    paths = rays(data, kappa.load_unit)
+    paths = [ray for ray in rays(data, kappa.load_unit) if not ray.tapered]
     left, right = panels(figure, 2)[0]
     places = _places_drawn(paths)
     handles: list[Any] = []
@@ -316,6 +322,8 @@ def ends_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> None
         ax.set_xscale("log")
         low, high = min(ray.alpha for ray in paths), max(ray.alpha for ray in paths)
         ax.set_ylim(low - 0.3, high + 0.3)
+        weak, tough = min(ray.g for ray in paths), max(ray.g for ray in paths)
+        ax.set_xlim(0.5 * weak, 10.0 * tough)
         label_axes(ax, TOUGHNESS, r"$\alpha$ [-]")
     for ray in paths:
         _mark_end(axes[2], ray, ray.friction[-1], ray.wear[-1])
@@ -386,6 +394,7 @@ def draw_pictures(
         "coupled-kappa": ((7.0, 3.3), partial(kappa_figure, data, kappa)),
         "coupled-laws": ((7.0, 2.7), partial(laws_figure, kappa)),
         "coupled-ends": ((7.0, 3.0), partial(ends_figure, data, kappa)),
+        "coupled-tip": (TIP_SIZE, partial(tip_figure, data)),
     }
     for name in PICTURES:
         size, draw = pictures[name]
