@@ -5,7 +5,8 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
-from boxes import Box, prints_alike
+from boxes import TISSUE as HERE
+from boxes import prints_alike
 
 from surrogate import (
     AccuracyError,
@@ -20,21 +21,10 @@ from surrogate.coupling.coverage import uncovered
 from surrogate.coupling.shipped import amplification
 from surrogate.scene import NAMES
 
-TISSUE = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
+TISSUE = HERE.scene
 #: By which the polynomial of kappa is off where it is evaluated in plain powers: its terms, of
 #: which each loses some 2**-53, are up to 1e6 together; about the middle of its range they are 500.
 PLAIN = 1e-9
-HERE = Box(
-    TISSUE,
-    {
-        "shear_modulus": (8e3, 20e3),
-        "toughness": (3.0, 9.0),
-        "wire_radius": (4e-4, 2e-3),
-        "friction_coefficient": (0.0, 0.01),
-        "wear_strength": (1.0, 5e2),
-        "stiffening_exponent": (5.5, 7.0),
-    },
-)
 ONES = [(name,) for name in NAMES]
 SEVERAL = [("toughness", "wire_radius"), ("wear_strength", "wire_radius"), NAMES]
 ALONE = {"wear alone": (0.0, 1e3), "friction alone": (0.02, 0.0), "both": (0.01, 1e3)}

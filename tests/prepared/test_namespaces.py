@@ -1,6 +1,7 @@
 """Prepared forces on arrays of other libraries: array-api-strict, which has no more than the
 standard, and jax."""
 
+import boxes
 import numpy as np
 import pytest
 
@@ -8,28 +9,17 @@ from surrogate import DomainError, InputError, Scene, force_gradient, prepare
 from surrogate.prepared.namespaces import SINGLE, SINGLE_COUPLED
 from surrogate.scene import NAMES
 
-GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
-BOX = {
-    "shear_modulus": (400.0, 2000.0),
-    "toughness": (0.8, 3.0),
-    "wire_radius": (1e-4, 1e-3),
-    "friction_coefficient": (0.0, 0.3),
-    "wear_strength": (100.0, 9000.0),
-    "stiffening_exponent": (2.0, 4.0),
-}
+GEL = boxes.GEL.scene
+TISSUE = boxes.TISSUE.scene
 VARYING = [*((name,) for name in NAMES), ("wire_radius", "stiffening_exponent"), NAMES]
 
 
 def of(varying, model="table", **options):
-    return prepare(GEL, varying, {name: BOX[name] for name in varying}, model, **options)
+    return prepare(GEL, varying, boxes.GEL.of(varying), model, **options)
 
 
-def points(varying, count=60):
-    """Return values in the ranges, not at their ends, where a number of 32 bits may be outside."""
-    random = np.random.default_rng(1)
-    shares = random.uniform(0.001, 0.999, (len(varying), count))
-    ends = np.array([BOX[name] for name in varying])
-    return list(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * shares)
+def points(varying):
+    return boxes.GEL.inner_points(varying)
 
 
 @pytest.fixture(scope="module")
@@ -94,24 +84,10 @@ def test_kinds_of_arrays(strict):
         force(radii, radii, out=np.empty(2))
 
 
-TISSUE = Scene(10e3, 5.0, 0.5e-3, 0.01, 1e3, 6.0)
-LOADS = {
-    "shear_modulus": (8e3, 20e3),
-    "toughness": (3.0, 9.0),
-    "wire_radius": (4e-4, 2e-3),
-    "friction_coefficient": (0.0, 0.01),
-    "wear_strength": (1.0, 5e2),
-    "stiffening_exponent": (5.5, 7.0),
-}
-
-
 def amplified(varying):
     """Return a force under the law "coupled", and values of what varies."""
-    box = {name: LOADS[name] for name in varying}
-    random, ends = np.random.default_rng(1), np.array(list(box.values()))
-    shares = random.uniform(0.001, 0.999, (len(varying), 60))
-    values = list(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * shares)
-    return prepare(TISSUE, varying, box, law="coupled"), values
+    force = prepare(TISSUE, varying, boxes.TISSUE.of(varying), law="coupled")
+    return force, boxes.TISSUE.inner_points(varying)
 
 
 @pytest.mark.parametrize("varying", VARYING, ids=str)

@@ -5,7 +5,8 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
-from boxes import Box, prints_alike
+from boxes import GEL as HERE
+from boxes import prints_alike
 
 from surrogate import (
     AccuracyError,
@@ -19,18 +20,7 @@ from surrogate import (
 from surrogate.choosing.candidates import candidates
 from surrogate.scene import NAMES
 
-GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.5)
-HERE = Box(
-    GEL,
-    {
-        "shear_modulus": (400.0, 2000.0),
-        "toughness": (0.8, 3.0),
-        "wire_radius": (1e-4, 1e-3),
-        "friction_coefficient": (0.0, 0.3),
-        "wear_strength": (100.0, 9000.0),
-        "stiffening_exponent": (2.0, 4.0),
-    },
-)
+GEL = HERE.scene
 ONES = [(name,) for name in NAMES]
 SEVERAL = [
     ("toughness", "wire_radius"),
