@@ -158,7 +158,7 @@ def test_a_result_of_the_other_law_gives_a_map_of_that_law(run, lab):
     assert run("design --result slip.json --law slip --cuts 3")[0] == 0
     code, _, err = run("design --result slip.json --law coupled")
     assert code == 2
-    assert "was identified by the law 'slip', wear strength is not that of another" in err
+    assert "was identified by the law 'slip', whose wear strength is not that of another" in err
 
 
 @pytest.mark.parametrize("std", [0.3, 0.6])
