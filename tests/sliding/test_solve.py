@@ -61,10 +61,8 @@ def test_a_way_that_ends_says_why_and_keeps_what_it_reached():
         assert 0.3 < record.wear < 20.0  # the last equilibrium, not the one asked for
         assert record.reason
         assert not record.is_reached
-        # the crease, or close to it what ends the path on this mesh; or the limit of the load
-        close = record.least_stretch < CREASE_STRETCH + 0.1
-        assert close or record.outcome is SlidingOutcome.LIMIT
-        assert record.least_stretch < reached.least_stretch
+        # the crease or close to it, whichever is met first on this mesh
+        assert record.least_stretch < CREASE_STRETCH + 0.1
 
 
 def test_a_load_with_a_maximum_is_followed_around_it():
