@@ -179,7 +179,9 @@ def kappa_figure(data: CoupledData, kappa: Amplification, figure: Figure) -> Non
     figure : matplotlib.figure.Figure
         Where to draw.
     """
-    paths = [ray for ray in rays(data, kappa.load_unit) if not ray.tapered]
+    paths = rays(data, kappa.load_unit)
+    worn = {ray.base for ray in paths if ray.wear.any() and not ray.tapered}
+    paths = [ray for ray in paths if ray.base in worn]
     left, right = panels(figure, 2)[0]
     places = _places_drawn(paths)
     handles: list[Any] = []
