@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import surrogate.choosing.auto_law
 import surrogate.choosing.candidates
 import surrogate.choosing.catalogue
 import surrogate.choosing.costs
@@ -55,6 +56,7 @@ def made_up_kappa(fitted_file):
     file.with_name(f"{AMPLIFICATION_FILE}.sha256").write_bytes(
         checksum_line(AMPLIFICATION_FILE, content)
     )
+    surrogate.choosing.auto_law._at.cache_clear()  # which may know that there was none
     return kappa
 
 

@@ -83,7 +83,7 @@ def test_other_friction_is_that_of_another_identification(model):
 
 
 def test_every_source_of_error_widens_the_intervals_and_is_told():
-    options = {"force_std": 0.05 * NOISY, "friction_coefficient": 0.2}
+    options = {"force_std": 0.05 * NOISY, "friction_coefficient": 0.2, "law": "projected"}
     plain = identify(RADII, NOISY, MODULUS, **options)
     for name, std in (
         ("shear_modulus", {"shear_modulus_std": 0.1 * MODULUS}),

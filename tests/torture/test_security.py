@@ -3,7 +3,10 @@
 import ast
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from surrogate.coupling.polynomial import Polynomial, of_one_number
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("surrogate", "fe_training", "scripts")
@@ -37,6 +40,11 @@ ALLOWED_IMPORTS = {
 }
 """Where `import_module` is called: never with what comes from outside."""
 
+WRITTEN_OUT = {
+    "surrogate/coupling/polynomial.py": "polynomials as programs of floats and names in the code"
+}
+"""Where `exec` and `eval` are called: never with what comes from outside."""
+
 OWN_PYTHONS = {"scripts/torture-numpy": "environments that it has made itself"}
 """What runs other programs than constant ones."""
 
@@ -67,7 +75,8 @@ def calls(path):
 def test_nothing_is_evaluated_or_given_to_a_shell(path):
     for call in calls(path):
         name, where = called(call), f"{path.name}:{call.lineno}"
-        assert name not in FORBIDDEN_CALLS, where
+        written_out = name in ("exec", "eval") and path in {ROOT / own for own in WRITTEN_OUT}
+        assert written_out or name not in FORBIDDEN_CALLS, where
         assert not any(name == bad or name.endswith(f".{bad}") for bad in FORBIDDEN_ATTRIBUTES), (
             where
         )
@@ -174,3 +183,13 @@ def test_names_in_designs_never_leave_the_store(tmp_path):
         store = Store(tmp_path / "store")
         for one in design.configurations():
             assert store.path(one).resolve().parent == (tmp_path / "store" / "rows").resolve()
+
+
+@pytest.mark.parametrize("outside", ["__import__('os').abort()", "1.0", b"1.0", None, [1.0]])
+def test_a_polynomial_is_written_out_of_numbers_alone(outside):
+    coefficients = np.array([outside, 2.0], object)
+    with pytest.raises((TypeError, ValueError)):
+        Polynomial(np.array([[0], [1]]), coefficients)(3.0)
+    if outside not in ("1.0", b"1.0"):  # of which float makes a number
+        with pytest.raises((TypeError, ValueError)):
+            of_one_number([outside, 2.0])
