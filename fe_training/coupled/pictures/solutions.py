@@ -17,7 +17,7 @@ from fe_training.coupled.dataset import CoupledData
 from fe_training.coupled.pictures.balance import SIZE, balance_figure
 from fe_training.coupled.pictures.tip import SIZE as TIP_SIZE
 from fe_training.coupled.pictures.tip import tip_figure
-from fe_training.figure_style import TOUGHNESS
+from fe_training.figure_style import TOUGHNESS, plain_log_ticks
 from fe_training.sliding.record import SlidingOutcome
 from surrogate import contact_functions
 from surrogate.basics.figures import (
@@ -235,15 +235,11 @@ def _draw_ray(
 
 
 def _plain_ticks(ax: Axes) -> None:
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
     low, high = ax.get_ylim()
-    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0)))
     if high < 2.0 * low:
         ax.set_yscale("linear")
-        return
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.yaxis.set_minor_formatter(NullFormatter())
+    else:
+        plain_log_ticks(ax, (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 
 
 def laws_figure(kappa: Amplification, figure: Figure) -> None:

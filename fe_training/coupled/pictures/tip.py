@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.coupled.dataset import CoupledData
+from fe_training.figure_style import plain_log_ticks
 from fe_training.sliding.record import SlidingOutcome
 from surrogate.basics.figures import COLOURS, GREY, SMALL, label_axes, legend_over, panels
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = ["SIZE", "friction_limits", "places_with_notches", "tip_figure", "wear_forces"]
@@ -92,18 +92,10 @@ def tip_figure(data: CoupledData, figure: Figure) -> None:
         name = rf"notch {radius:g} $R_w$ in (b)"
         handles += right.plot([], [], line, color=GREY, lw=1.1, label=name)
     left.set(xscale="log", yscale="log")
-    _plain(left)
     right.set_yscale("log")
-    _plain(right)
+    for ax in (left, right):
+        plain_log_ticks(ax, (1.0, 2.0, 3.0, 5.0))
+        ax.tick_params(labelsize=SMALL)
     label_axes(left, r"radius of the notch [$R_w$]", r"$\xi$ at the maximum, no wear [-]")
     label_axes(right, r"$\tau_w/\mu$, no friction [-]", r"$F_{ss}/(\mu R_w g)$ [-]")
     legend_over(figure, handles, 3)
-
-
-def _plain(ax: Axes) -> None:
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
-    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 3.0, 5.0)))
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.yaxis.set_minor_formatter(NullFormatter())
-    ax.tick_params(labelsize=SMALL)
