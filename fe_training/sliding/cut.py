@@ -134,8 +134,7 @@ class SlidingCut:
         Not where wear jumps at the ends of the contact: there dJ/dx_w scatters, and the load falls
         as a node leaves the wire.
         """
-        jumps = leg.end.load.wear > 0.0 and leg.end.load.taper == 0.0
-        return 0.0 if jumps else _FLAT * self._rate
+        return 0.0 if leg.end.load.jumps else _FLAT * self._rate
 
     def _take(self, state: SlidingState, leg: Leg) -> None:
         """Take up an equilibrium on a leg, and remember that of the largest load."""

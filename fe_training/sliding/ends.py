@@ -68,7 +68,7 @@ class Ends:
             self.flips += lost | gripped
         changed = wire != before.wire
         self.flips += changed
-        if self.load.wear > 0.0 and self.load.taper == 0.0:
+        if self.load.jumps:
             between = changed & (self.flips >= _FLIPS) & ~after.plane
             between &= self.flips <= _LAST_FLIPS
             wire, grazing = wire | between, grazing | between

@@ -155,15 +155,19 @@ class _Newton:
 
     def _onwards(self, state: SlidingState) -> dict[str, Any]:
         """Return the derivative of the state to the share of the leg or to the position."""
-        lacking = self.leg.toughening(self.share) - self.per_load
         if self.position is None:
-            slide, control = self.grow.plus(self.move, lacking / self.per_move), None
-            pace = 1.0
+            control, pace = None, 1.0
+            slide = self.grow.plus(self.move, self._lacking / self.per_move)
         else:
-            pace, control = float(self.per_move / lacking), Control.POSITION
+            control, pace = Control.POSITION, float(self.per_move / self._lacking)
             slide = self.move.plus(self.grow, pace)
         tangent = slide.as_tangent(state)
         return {"tangent": tangent, "control": control, "share": self.share, "pace": pace}
+
+    @property
+    def _lacking(self) -> np.float64:
+        """How fast J falls behind g along the leg, the wire at rest."""
+        return np.float64(self.leg.toughening(self.share) - self.per_load)
 
     def _missing(self, state: SlidingState) -> float:
         return self.goal.g - self.problem.energy_release_rate(state)
@@ -175,8 +179,7 @@ class _Newton:
             step = newton.plus(self.move, float(change / self.per_move))
         else:
             move = self.position - state.centre[0]
-            lacking = self.leg.toughening(self.share) - self.per_load
-            load = float((self.per_move * move - change) / lacking)
+            load = float((self.per_move * move - change) / self._lacking)
             step = newton.plus(self.move, move).plus(self.grow, load)
             self._load_by(load)
         return self.ends.updated(step.applied(state))

@@ -141,7 +141,8 @@ def follow(
     leg : Leg
     steps : Steps
     flat : float
-        dJ/dx_w below which steps are in the position of the wire [mu].
+        dJ/dx_w below which steps are in the position of the wire [mu]; 0 where it scatters, so that
+        its sign tells nothing.
 
     Raises
     ------
@@ -151,11 +152,13 @@ def follow(
     while state.share < 1.0:
         if abs(state.position_rate) < flat:
             state = by_position(state)
-        state = _next(problem, state, leg, _IN_POSITION if state.control else steps)
+        state = _next(problem, state, leg, _IN_POSITION if state.control else steps, flat > 0.0)
         yield state
 
 
-def _next(problem: Problem, state: SlidingState, leg: Leg, steps: Steps) -> SlidingState:
+def _next(
+    problem: Problem, state: SlidingState, leg: Leg, steps: Steps, smooth: bool
+) -> SlidingState:
     """Return the next equilibrium along a leg, with the size of the step after it."""
     size, sign = abs(state.step) or steps.first, copysign(1.0, state.step or 1.0)
     reach = share_step(problem.body, state, sign, _SHARE) if state.tangent else size
@@ -164,7 +167,7 @@ def _next(problem: Problem, state: SlidingState, leg: Leg, steps: Steps) -> Slid
         step = max(min(size, reach), steps.smallest)
         start, share, position = _ahead(problem, state, sign * step)
         reached, outcome = attempt(problem, start, leg, share, position)
-        if reached is None or _on_the_other_side(state, reached):
+        if reached is None or (smooth and _on_the_other_side(state, reached)):
             size = 0.5 * step
         elif reached.control is not state.control:
             return replace(reached, step=0.0)

@@ -58,6 +58,11 @@ class Load:
         """The pressure P_0 [mu]."""
         return self.taper * self.wear
 
+    @property
+    def jumps(self) -> bool:
+        """Whether the shear jumps from nothing where the contact begins."""
+        return self.wear > 0.0 and self.taper == 0.0
+
     def plus(self, other: Load, factor: float = 1.0) -> Load:
         """Return this load and a multiple of another one, with the taper of this one."""
         friction = self.friction + factor * other.friction
@@ -69,16 +74,18 @@ class Load:
 
     def growth(self, by: Load, force: Array, length: Array) -> Array:
         """Return how fast these shear forces grow as the load does [mu R_w]."""
-        grip, rise = self._grip(force, length)
-        # P_0 grows with tau_w, which takes from the grip what a lower pressure would
-        wear = length * grip - force * rise
-        return by.friction * force + by.wear * wear
+        # P_0 grows with tau_w, as l does at the same force: both lower P / P_0 alike
+        return by.friction * force + by.wear * length * self._lasting_grip(force, length)[0]
 
     def slopes(self, force: Array, length: Array) -> tuple[Array, Array]:
         """Return the derivatives of the shear forces to normal forces and to lengths."""
+        lasting, rise = self._lasting_grip(force, length)
+        return self.friction + self.wear * rise, self.wear * lasting
+
+    def _lasting_grip(self, force: Array, length: Array) -> tuple[Array, Array]:
+        """Return the grip less what P / P_0 falling with its inverse takes, and its rise."""
         grip, rise = self._grip(force, length)
-        pressure = force / length
-        return self.friction + self.wear * rise, self.wear * (grip - rise * pressure)
+        return grip - rise * (force / length), rise
 
     def _grip(self, force: Array, length: Array) -> tuple[Array, Array]:
         """Return the share of tau_w that acts, and its derivative to the pressure."""

@@ -12,7 +12,6 @@ from fe_training.sliding.tangent import SlidingLinearisation, SlidingResidual
 from fe_training.solver.state import NewtonOutcome
 
 LOADS = [Load(0.2, 0.7), Load(0.2, 0.7, taper=0.5)]
-LOAD = LOADS[0]
 
 
 def moved(lin, du, angle, t):
@@ -62,12 +61,13 @@ def test_matrix_is_the_derivative_of_the_sliding_residual(sliding, load):
     assert np.abs(without - expected).max() > 0.01 * np.abs(expected).max()
 
 
+@pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("end", [Load(0.3, 0.7), Load(0.2, 1.0)])
 @pytest.mark.parametrize("toughening", [1.0, 1.3])
-def test_tangent_is_the_derivative_of_the_equilibrium(sliding, end, toughening):
+def test_tangent_is_the_derivative_of_the_equilibrium(sliding, load, end, toughening):
     """Two equilibria on either side: the second difference leaves h^2 of the tangent."""
-    here, state = sliding.at(LOAD)
-    leg = Leg(here, Point(here.g * toughening, end))
+    here, state = sliding.at(load)
+    leg = Leg(here, Point(here.g * toughening, replace(end, taper=load.taper)))
     state, outcome = equilibrate(sliding.problem, replace(state, tangent=None), leg, 0.0)
     assert outcome is NewtonOutcome.CONVERGED
     h = 1e-4
