@@ -22,6 +22,7 @@ __all__ = [
     "Configuration",
     "Denser",
     "Task",
+    "Touching",
 ]
 
 #: Name of the level with a larger notch.
@@ -135,6 +136,32 @@ class Beyond:
 
 
 @dataclass(frozen=True, slots=True)
+class Touching:
+    """Nodes in g on either side of the touch of the tip, near enough to find it between them.
+
+    Parameters
+    ----------
+    alpha : tuple of float
+        The stiffening exponents that have them [-].
+    touch : tuple of float
+        About where the tip begins to touch the wire, for each of these exponents [-].
+    offsets : tuple of float
+        ln(g/touch) of the nodes, rising [-].
+    """
+
+    alpha: tuple[float, ...]
+    touch: tuple[float, ...]
+    offsets: tuple[float, ...]
+
+    def nodes(self, alpha: float) -> tuple[float, ...]:
+        """Return the nodes of one alpha."""
+        if alpha not in self.alpha:
+            return ()
+        touch = self.touch[self.alpha.index(alpha)]
+        return tuple(float(f"{touch * math.exp(offset):.4g}") for offset in self.offsets)
+
+
+@dataclass(frozen=True, slots=True)
 class Blunt:
     """A third level: the coarser mesh with a larger notch, for what depends on the size of the tip.
 
@@ -174,6 +201,8 @@ class CampaignDesign:
         Nodes above `highest`, further for larger exponents.
     blunt : Blunt, optional
         The level with a larger notch, named "blunt".
+    touching : Touching, optional
+        Nodes near the touch of the tip.
     """
 
     alpha: tuple[float, ...]
@@ -186,6 +215,7 @@ class CampaignDesign:
     nodes: tuple[tuple[float, ...], ...] | None = None
     beyond: Beyond | None = None
     blunt: Blunt | None = None
+    touching: Touching | None = None
 
     @property
     def hash(self) -> str:
@@ -197,7 +227,7 @@ class CampaignDesign:
         """Return all numbers, defaults of the settings included, as plain dictionaries."""
         levels = [[name, asdict(settings)] for name, settings in self.levels.items()]
         numbers = {field.name: getattr(self, field.name) for field in fields(self)}
-        for name in ("nodes", "beyond", "blunt"):
+        for name in ("nodes", "beyond", "blunt", "touching"):
             if numbers[name] is None:
                 del numbers[name]  # as if there were no such field, for the hash
             elif name != "nodes":
@@ -217,6 +247,9 @@ class CampaignDesign:
             rest["beyond"] = Beyond(**beyond)
         if "blunt" in numbers:
             rest["blunt"] = Blunt(**numbers["blunt"])
+        if "touching" in numbers:
+            touching = {name: _plain(value) for name, value in numbers["touching"].items()}
+            rest["touching"] = Touching(**touching)
         return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
 
     def g(self, alpha: float) -> tuple[float, ...]:
@@ -228,7 +261,9 @@ class CampaignDesign:
         share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
         nodes = np.interp(np.linspace(0.0, share[-1], self.count), share, fine)
         shared = tuple(float(f"{10.0**node:.4g}") for node in nodes)
-        return shared + (self.beyond.nodes(alpha, self.highest) if self.beyond else ())
+        beyond = self.beyond.nodes(alpha, self.highest) if self.beyond else ()
+        touching = self.touching.nodes(alpha) if self.touching else ()
+        return tuple(sorted({*shared, *beyond, *touching}))
 
     @property
     def points(self) -> int:

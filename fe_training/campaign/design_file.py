@@ -6,12 +6,12 @@ import math
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from fe_training.campaign.design import Beyond, Blunt, CampaignDesign, Denser
+from fe_training.campaign.design import Beyond, Blunt, CampaignDesign, Denser, Touching
 from fe_training.solver.cut import Settings
 from fe_training.solver.solve import ALPHA_RANGE, G_RANGE
 from surrogate.basics.files import file_name
@@ -50,7 +50,7 @@ def read_design(path: str | os.PathLike[str]) -> CampaignDesign:
     >>> from surrogate.basics.files import model_file
     >>> design = read_design(model_file("campaign.toml"))
     >>> len(design.alpha), len(design.configurations())
-    (11, 1317)
+    (16, 2136)
     """
     name = file_name(path)
     try:
@@ -140,6 +140,7 @@ def _checked(table: _Table) -> CampaignDesign:
     count = g.integer("count", 2, _MOST_NODES)
     denser = g.table("denser")
     beyond = _beyond(g.table("beyond"), highest) if g.has("beyond") else None
+    touching = _touching(g.table("touching")) if g.has("touching") else None
     g.end()
     at = denser.numbers("alpha", *ALPHA_RANGE, rising=True)
     touch = denser.numbers("touch", *G_RANGE, rising=False)
@@ -160,9 +161,10 @@ def _checked(table: _Table) -> CampaignDesign:
         _levels(levels),
         beyond=beyond,
         blunt=blunt,
+        touching=touching,
     )
     for value in alpha:
-        if len(set(design.g(value)[:count])) < count:
+        if len(set(replace(design, touching=None).g(value)[:count])) < count:
             raise InputError(
                 f"g.count = {count} nodes between {lowest:g} and {highest:g} coincide in four "
                 "digits; give fewer."
@@ -181,6 +183,19 @@ def _beyond(table: _Table, above: float) -> Beyond:
             "for each of g.beyond.alpha."
         )
     return Beyond(alpha, highest, per_decade)
+
+
+def _touching(table: _Table) -> Touching:
+    alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
+    touch = table.numbers("touch", *G_RANGE, rising=False)
+    offsets = table.numbers("offsets", -3.0, 3.0, rising=True)
+    table.end()
+    if len(touch) != len(alpha):
+        raise InputError(
+            f"g.touching.touch has {len(touch)} numbers and g.touching.alpha {len(alpha)}; give "
+            "one for each alpha."
+        )
+    return Touching(alpha, touch, offsets)
 
 
 def _blunt(table: _Table) -> Blunt:
