@@ -193,6 +193,8 @@ def run_task(
     left = {one for one in passed if (row := rows[one]) is None or row.tried <= task.attempt}
     if not left:
         return
+    last = max(one.target for one in left)
+    passed = [one for one in passed if one.target <= last]
 
     def keep(one: Configuration, record: Record) -> None:
         passed.remove(one)
