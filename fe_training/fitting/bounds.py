@@ -20,7 +20,14 @@ from fe_training.fitting.touch import Touch
 from surrogate.contact.base import ForceModel
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates, log_touch
+from surrogate.contact.coordinates import (
+    AT_THE_TIP,
+    QUANTITIES,
+    SLIP_QUANTITIES,
+    coordinates_of,
+    log_touch,
+    tip_slope,
+)
 from surrogate.contact.process import GaussianProcess
 
 __all__ = ["fit_bounds", "fit_slip_bounds", "left_out_errors"]
@@ -84,7 +91,7 @@ def fit_bounds(
         own = _own_errors(points, left_out[function], edges)
         for cell in np.ndindex(own.shape):
             g, alpha = (each[i : i + 2] for each, i in zip(edges, cell, strict=True))
-            bound = SAFETY * own[cell] + _bend_error(processes[function], touch, g, alpha)
+            bound = SAFETY * own[cell] + _bend_error(function, processes[function], touch, g, alpha)
             at = _grid(g, alpha)
             table = models["table"].contact((function,), *at)[0]
             apart = {name: _apart(model, function, at, table) for name, model in known.items()}
@@ -128,12 +135,14 @@ def fit_slip_bounds(
     left_out = left_out_errors(points, processes)
     scaled = replace(points, g=_ratio(points.g, points.alpha, touch))
     unseen = _unseen(off_grid, touch, models["gp"])
+    judged = np.zeros([len(each) - 1 for each in edges], bool)
+    if unseen is not None:
+        judged = _counted(unseen[0], edges) >= FEWEST_UNSEEN
     errors: dict[str, dict[str, Floats]] = {name: {} for name in ("eq13", *models)}
     for function in SLIP_QUANTITIES:
         own = _own_errors(scaled, left_out[function], edges)
         if unseen is not None:
             others, errors_there = unseen
-            judged = _counted(others, edges) >= FEWEST_UNSEEN
             own = np.where(judged, _own_errors(others, errors_there[function], edges), own)
         found = {name: np.full(own.shape, np.inf) for name in errors}
         for cell in np.ndindex(own.shape):
@@ -142,10 +151,13 @@ def fit_slip_bounds(
                 continue
             ratio, alphas = _grid(q, alpha)
             at = _inside(models["table"], ratio * _touching(alphas, touch), alphas)
-            for name, bound in _slip_errors(
-                function, SAFETY * float(own[cell]), at, models
-            ).items():
-                found[name][cell] = bound
+            if not at[0].size:
+                continue
+            bound = SAFETY * float(own[cell])
+            if not judged[cell]:  # else the points that no fit saw have that error too
+                bound += _moved(function, processes[function], touch, *map(np.log, at))
+            for name, of_model in _slip_errors(function, bound, at, models).items():
+                found[name][cell] = of_model
         for name, values in found.items():
             errors[name][function] = values
     return Bounds(*edges, errors, touch.coefficients)
@@ -155,8 +167,6 @@ def _slip_errors(
     function: str, bound: float, at: tuple[Floats, Floats], models: Mapping[str, ForceModel]
 ) -> dict[str, float]:
     """Return the bounds of all models in a cell, that of the process being known."""
-    if not at[0].size:
-        return {}
     table = models["table"].contact((function,), *at)[0]
     known = {"eq13": FORCE_MODELS["eq13"], **models}
     apart = {name: _apart(model, function, at, table) for name, model in known.items()}
@@ -224,7 +234,11 @@ def _own_errors(
 
 
 def _bend_error(
-    process: GaussianProcess, touch: Touch, g: tuple[float, ...], alpha: tuple[float, ...]
+    name: str,
+    process: GaussianProcess,
+    touch: Touch,
+    g: tuple[float, ...],
+    alpha: tuple[float, ...],
 ) -> float:
     """Return what an error of g_touch does where the function bends, if it does in this cell."""
     log_alpha = np.log(np.linspace(alpha[0], alpha[1], _GRID))
@@ -232,8 +246,18 @@ def _bend_error(
     here = (touched >= np.log(g[0])) & (touched <= np.log(g[1]))
     if not np.any(here):
         return 0.0
-    at = coordinates(touched[here], log_alpha[here], touched[here])
-    return float(2.0 * touch.error * np.max(np.abs(process.gradient(at)[:, 2])))
+    return _moved(name, process, touch, touched[here], log_alpha[here])
+
+
+def _moved(
+    name: str, process: GaussianProcess, touch: Touch, log_g: Floats, log_alpha: Floats
+) -> float:
+    """Return how far twice the standard error of g_touch moves the function of a quantity."""
+    touched = log_touch(touch.coefficients, log_alpha)
+    slope = process.gradient(coordinates_of(name, log_g, log_alpha, touched))[:, 2]
+    if name in AT_THE_TIP:
+        slope = slope * tip_slope(log_g - touched)
+    return float(2.0 * touch.error * np.max(np.abs(slope)))
 
 
 def _apart(model: ForceModel, function: str, at: tuple[Floats, Floats], table: Floats) -> float:

@@ -14,8 +14,7 @@ from fe_training.fitting.points import FitPoints
 from fe_training.fitting.touch import Touch
 from surrogate.contact.coordinates import (
     POWER,
-    STEPS,
-    coordinates,
+    coordinates_of,
     log_touch,
     vertex,
 )
@@ -39,7 +38,7 @@ NEAREST = 0.08
 
 #: Points that carry the prediction: added while the prior variance that they leave, relative to the
 #: whole, is above the first, and while they are fewer than the second.
-_LEFT, MOST_ACTIVE = 1e-9, 110
+_LEFT, MOST_ACTIVE = 1e-9, 240
 _RESTARTS = 2
 
 
@@ -67,7 +66,7 @@ def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floa
     """Return the coordinates of `surrogate.contact.coordinates`, values and variances."""
     log_g, log_alpha = np.log(points.g), np.log(points.alpha)
     touched = log_touch(touch.coefficients, log_alpha)
-    at, wedge = coordinates(log_g, log_alpha, touched), wedge_functions(log_g, wedge_load(log_g))
+    wedge = wedge_functions(log_g, wedge_load(log_g))
     x, gap = log_g - touched, points.distance - 1.0
     short = (x < -NEAREST) & (gap > 0.0)
     x, gap = np.where(short, x, -1.0), np.where(short, gap, 1.0)
@@ -75,12 +74,13 @@ def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floa
     distance = np.log(gap / (vertex(x) * wedge["distance"]))
     found = {
         name: (
-            coordinates(log_g, log_alpha, touched, STEPS.get(name, 0.0)),
+            coordinates_of(name, log_g, log_alpha, touched),
             np.log(getattr(points, name) / wedge[name]),
             points.relative_std(name) ** 2,
         )
         for name in points.names
     }
+    at = coordinates_of("distance", log_g, log_alpha, touched)
     return {**found, "distance": (at[short], distance[short], spread[short] ** 2)}
 
 

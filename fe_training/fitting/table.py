@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surrogate.contact.coordinates import STEPS, coordinates
+from surrogate.contact.coordinates import coordinates_of
 from surrogate.contact.grid import Grid
 from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.table import CellTable
@@ -46,9 +46,8 @@ def fit_table(
     scales = wedge_functions(log_g, wedge_load(log_g))
 
     def side(name: str, some: slice, past: bool) -> Floats:
-        step = STEPS.get(name, 0.0)
         g, alpha, touched = (each[some].ravel() for each in (log_g, log_alpha, touch))
-        mean = process.processes[name].predict_mean(coordinates(g, alpha, touched, step, past))
+        mean = process.processes[name].predict_mean(coordinates_of(name, g, alpha, touched, past))
         values = scales[name][some] * np.exp(mean.reshape(log_g[some].shape))
         return np.asarray(values.astype(np.float32), dtype=float)  # which halves the file
 

@@ -7,7 +7,8 @@ x = ln(g/g_touch): functions of the three may bend at the touch. The quantities 
 
 the last one short of the touch only. It is finite there, because delta reaches R_w with a vertex of
 about that power; beyond, delta is R_w. The slip arc A* and the slip load B* are taken like A and B,
-which they become in the far field, where the face is not stretched; A* jumps at the touch.
+which they become in the far field, where the face is not stretched. A* rises steeply before the
+touch and jumps there: its third coordinate does both, see `tip_coordinate`.
 
 Where the crack tip begins to touch the wire, and the coordinates that this gives the fits.
 
@@ -26,29 +27,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "AT_THE_TIP",
     "POWER",
     "QUANTITIES",
+    "RISE",
     "SLIP_QUANTITIES",
-    "STEPS",
+    "STEP",
+    "WITHIN",
     "coordinates",
+    "coordinates_of",
     "log_touch",
     "log_touch_slope",
+    "tip_coordinate",
+    "tip_slope",
     "touch_range",
     "vertex",
 ]
 
 QUANTITIES = ("arc", "normal_load", "distance")
 SLIP_QUANTITIES = ("slip_arc", "slip_load")
-STEPS = {"slip_arc": 4.0}
-"""Jumps of the last coordinate at the touch: of A*, to which the sharp tip adds its own slip there,
-some lengths of the processes, so that what is before and beyond hardly know of each other."""
+AT_THE_TIP = ("slip_arc",)
+"""What feels the tip before it touches the wire: A*, to which its slip is added from then on."""
+
+RISE, WITHIN, STEP = 3.0, 0.3, 4.0
+"""The last coordinate of such a quantity: how far it rises before the touch, within which part of
+ln g, and its jump there: some lengths of the process, so that what is before and beyond hardly know
+of each other."""
 
 POWER = 1.75
 
 
-def coordinates(
-    log_g: Any, log_alpha: Any, touch: Any, step: float = 0.0, past: Any = None
-) -> NDArray[np.float64]:
+def coordinates(log_g: Any, log_alpha: Any, touch: Any) -> NDArray[np.float64]:
     """Return the coordinates of points as one array of shape (points, 3).
 
     Parameters
@@ -57,21 +66,65 @@ def coordinates(
         ln g and ln alpha.
     touch : float or ndarray
         ln g_touch there.
-    step : float, default 0
-        By how much the last coordinate jumps at the touch, for a quantity that does.
-    past : bool or ndarray of bool, optional
-        Which points count as past the touch; from it on by default.
 
     Examples
     --------
     >>> coordinates(2.0, 1.0, 1.5)
     array([[2. , 1. , 0.5]])
     """
-    x = np.subtract(log_g, touch)
-    beyond = np.maximum(x, 0.0)
-    if step:
-        beyond = beyond + step * (x >= 0.0 if past is None else past)
+    beyond = np.maximum(np.subtract(log_g, touch), 0.0)
     return np.stack(np.broadcast_arrays(*np.atleast_1d(log_g, log_alpha, beyond)), axis=-1)
+
+
+def coordinates_of(
+    name: str, log_g: Any, log_alpha: Any, touch: Any, past: Any = None
+) -> NDArray[np.float64]:
+    """Return the coordinates in which a quantity is fitted.
+
+    Parameters
+    ----------
+    name : str
+        The quantity.
+    log_g, log_alpha, touch
+        As for `coordinates`.
+    past : bool or ndarray of bool, optional
+        Which points count as past the touch; from it on by default.
+
+    Examples
+    --------
+    >>> coordinates_of("slip_arc", 2.0, 1.0, 1.5)
+    array([[2. , 1. , 4.5]])
+    """
+    at = coordinates(log_g, log_alpha, touch)
+    if name in AT_THE_TIP:
+        x = np.subtract(log_g, touch)
+        at[:, 2] = tip_coordinate(x, x >= 0.0 if past is None else past)
+    return at
+
+
+def tip_coordinate(x: Any, past: Any) -> Any:
+    """Return the last coordinate of what feels the tip, at x = ln(g/g_touch).
+
+    Examples
+    --------
+    >>> x = np.array([-9.0, -0.3, 0.0, 0.5])
+    >>> tip_coordinate(x, x >= 0.0).round(3)
+    array([-3.   , -1.896,  4.   ,  4.5  ])
+    """
+    before = RISE * np.expm1(np.minimum(x, 0.0) / WITHIN)
+    return np.where(past, STEP + np.maximum(x, 0.0), before)
+
+
+def tip_slope(x: Any) -> Any:
+    """Return the derivative of `tip_coordinate` by x.
+
+    Examples
+    --------
+    >>> tip_slope(np.array([-0.3, 0.5])).round(3)
+    array([3.679, 1.   ])
+    """
+    before = RISE / WITHIN * np.exp(np.minimum(x, 0.0) / WITHIN)
+    return np.where(np.greater_equal(x, 0.0), 1.0, before)
 
 
 def vertex(x: Any) -> Any:

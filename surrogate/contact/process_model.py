@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.elementwise import log
-from surrogate.contact.coordinates import POWER, STEPS, coordinates, vertex
+from surrogate.contact.coordinates import (
+    AT_THE_TIP,
+    POWER,
+    coordinates,
+    coordinates_of,
+    tip_slope,
+    vertex,
+)
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import PROJECTED, FittedModel, in_blocks
 from surrogate.contact.wedge import wedge_functions, wedge_load, wedge_slopes
@@ -65,7 +72,7 @@ class ProcessModel(FittedModel):
         slopes = process.gradient(at)
         touch, bend = self.limits.log_touch_slopes(at[:, 1])
         x = at[:, 0] - touch
-        past = (x >= 0.0) * slopes[:, 2]
+        past = (tip_slope(x) if name in AT_THE_TIP else x >= 0.0) * slopes[:, 2]
         in_g = wedge_slopes(at[:, 0])[name] + slopes[:, 0] + past
         in_alpha = slopes[:, 1] - bend * past
         size = value
@@ -98,10 +105,9 @@ class ProcessModel(FittedModel):
 
     def _for(self, name: str, at: Array) -> Array:
         """Return the coordinates of points as the process of a quantity has them."""
-        if name not in STEPS:
+        if name not in AT_THE_TIP:
             return at
-        touch = self.limits.log_touch(at[:, 1])
-        return coordinates(at[:, 0], at[:, 1], touch, STEPS[name])
+        return coordinates_of(name, at[:, 0], at[:, 1], self.limits.log_touch(at[:, 1]))
 
     def _at(self, log_g: Any, log_alpha: Any) -> tuple[Array, dict[str, Array]]:
         """Return the coordinates of points, and A, B and delta - 1 where the quantities are 0."""

@@ -14,7 +14,7 @@ import numpy as np
 from surrogate.basics.files import file_name, models_folder
 from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
 from surrogate.contact.bounds import Bounds
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS, coordinates
+from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates_of
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import FittedModel
 from surrogate.contact.formula import BlendModel
@@ -247,9 +247,7 @@ def _process(
 
     points = arrays[f"{name}.points"]
     return GaussianProcess(
-        inputs=coordinates(
-            points[:, 0], points[:, 1], limits.log_touch(points[:, 1]), STEPS.get(name, 0.0)
-        ),
+        inputs=coordinates_of(name, points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
         values=arrays[f"{name}.values"],
         noise=arrays[f"{name}.noise"].astype(float),
         active=arrays[f"{name}.active"].astype(np.intp),

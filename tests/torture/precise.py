@@ -7,7 +7,14 @@ from itertools import pairwise
 import mpmath
 import numpy as np
 
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS
+from surrogate.contact.coordinates import (
+    AT_THE_TIP,
+    QUANTITIES,
+    RISE,
+    SLIP_QUANTITIES,
+    STEP,
+    WITHIN,
+)
 from surrogate.contact.process import JITTER
 from surrogate.contact.shipped import shipped
 
@@ -140,8 +147,10 @@ class Precise:
         scales = wedge(at)[0]
         found = {}
         for name in self.names:
-            step = mp(STEPS.get(name, 0)) if x >= 0 else mp(0)
-            quantity = self._mean(name, [at, row, max(x, mp(0)) + step])
+            last = max(x, mp(0))
+            if name in AT_THE_TIP:
+                last = x + STEP if x >= 0 else RISE * mpmath.expm1(x / mp(WITHIN))
+            quantity = self._mean(name, [at, row, last])
             found[name] = scales[name] * mpmath.exp(quantity)
         found["distance"] = 1 + (-x) ** mp(1.75) * found["distance"] if x < 0 else mp(1)
         return found
