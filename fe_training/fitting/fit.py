@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -69,10 +69,11 @@ def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
         {name: _growth(points, name) for name in points.names if name in GROWING},
         highest_g(points),
     )
-    processes, _ = fit_processes(points, touch)
+    processes, hyperparameters = fit_processes(points, touch)
     table = fit_table(ProcessModel(limits, processes, touch.error))
     constants = fit_blend(points, touch)
     told = {**(about or {}), "eq9": eq9_fits(points), "touch_points": _touch_points(touch)}
+    told["scatter"] = {name: asdict(one.scatter) for name, one in hyperparameters.items()}
     bare = Fitted(limits, processes, table, constants, touch.error, told)
     told["bounds"] = fit_bounds(points, touch, processes, bare.models).as_dict()
     if {*SLIP_QUANTITIES} <= {*points.names}:

@@ -13,14 +13,17 @@ from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES
 from surrogate.errors import InputError
 
 if TYPE_CHECKING:
-    from fe_training.campaign.dataset import Campaign
+    from fe_training.campaign.dataset import Campaign, Table
 
 __all__ = ["FitPoints", "points_of"]
 
 Floats = NDArray[np.float64]
 
 _ONE_LEVEL = "only one mesh level was reached"
-_TRUNCATED = "B is truncated by the finite body"
+_DOUBTS = ("B is truncated by the finite body", "|J - 2 F_h|/J is above its bound")
+
+#: What the finite body takes something off.
+_TRUNCATED_QUANTITIES = ("normal_load", "slip_load")
 
 #: Smallest standard errors that a difference between two meshes is believed to show: of A
 #: absolutely, of B and delta relatively.
@@ -48,6 +51,9 @@ class FitPoints:
         A* and B* [-]; data sets from before they were recorded have none.
     slip_arc_std, slip_load_std : ndarray, shape (points,), optional
         Their standard errors, relative [-].
+    truncation : ndarray, shape (points,), optional
+        What the finite body may take off B and B*, relative, which their standard errors have in
+        them [-].
     """
 
     alpha: Floats
@@ -62,6 +68,7 @@ class FitPoints:
     slip_load: Floats | None = None
     slip_arc_std: Floats | None = None
     slip_load_std: Floats | None = None
+    truncation: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.alpha)
@@ -76,6 +83,13 @@ class FitPoints:
         std: Floats = getattr(self, f"{name}_std")
         return std / self.arc if name == "arc" else std
 
+    def mesh_variance(self, name: str) -> Floats:
+        """Return the squares of the relative differences between the meshes of a quantity [-]."""
+        square = self.relative_std(name) ** 2
+        if self.truncation is None or name not in _TRUNCATED_QUANTITIES:
+            return square
+        return np.maximum(square - self.truncation**2, LOAD_FLOOR**2)
+
     def taken(self, chosen: Any) -> FitPoints:
         """Return some of the points, by a mask, a slice or indices."""
         columns = {field.name: getattr(self, field.name) for field in fields(self)}
@@ -83,7 +97,7 @@ class FitPoints:
         return FitPoints(**some)
 
 
-def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 0.0) -> FitPoints:
+def points_of(campaign: Campaign, single_mesh: bool = False, doubtful: float = 0.0) -> FitPoints:
     """Return the points of a campaign that may be used.
 
     Parameters
@@ -93,9 +107,10 @@ def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 
     single_mesh : bool, default False
         Whether to take points that only one mesh level has reached as well, with errors that
         nobody measured: for trying out a fit before the campaign is complete.
-    truncated : float, default 0
-        Relative error up to which points are taken as well whose B the finite body takes off, with
-        that error in their standard errors [-]: to judge how models are continued, not to fit.
+    doubtful : float, default 0
+        Up to which share points are taken as well off whose B the finite body takes that much, or
+        where J differs from 2 F_h by that much, with both in their standard errors [-]: to judge
+        models, not to fit them.
 
     Returns
     -------
@@ -111,9 +126,8 @@ def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 
     use = points["use"].astype(bool)
     if single_mesh:
         use = use | (points["reason"] == _ONE_LEVEL)
-    if truncated > 0.0:
-        taken_off = np.char.startswith(points["reason"].astype(str), _TRUNCATED)
-        use = use | (taken_off & (points["truncation_error"] <= truncated))
+    if doubtful > 0.0:
+        use = use | _hardly_doubted(points, doubtful)
     if not use.any():
         raise InputError(
             "no point of the data set is within the bounds of its evidence, so there is nothing "
@@ -121,6 +135,8 @@ def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 
         )
     columns = {name: np.asarray(values)[use] for name, values in points.columns.items()}
     truncation = columns["truncation_error"]
+    if doubtful > 0.0:  # J, and so g, is known to that share only
+        truncation = np.hypot(truncation, np.abs(columns["force_mismatch"]))
     found = FitPoints(
         alpha=columns["alpha"],
         g=columns["g"],
@@ -132,6 +148,7 @@ def points_of(campaign: Campaign, single_mesh: bool = False, truncated: float = 
             _at_least(columns["normal_load_error"], LOAD_FLOOR, 5e-4), truncation
         ),
         distance_std=_at_least(columns["distance_error"], DISTANCE_FLOOR, 5e-4),
+        truncation=truncation,
         **_slip(columns, truncation),
     )
     return found.taken(np.lexsort((found.g, found.alpha)))
@@ -148,6 +165,17 @@ def _slip(columns: Mapping[str, Any], truncation: Floats) -> dict[str, Floats]:
         "slip_arc_std": _at_least(columns["slip_arc_error"], SLIP_ARC_FLOOR, 2e-3),
         "slip_load_std": np.hypot(load, truncation),
     }
+
+
+def _hardly_doubted(points: Table, share: float) -> NDArray[np.bool_]:
+    """Return which points are doubted for nothing but truncation and J, each up to a share."""
+    sizes = points["truncation_error"], np.abs(points["force_mismatch"])
+    small: NDArray[np.bool_] = np.maximum(*sizes) <= share
+    alone = [
+        all(part.startswith(_DOUBTS) for part in str(reason).split("; "))
+        for reason in points["reason"].astype(str)
+    ]
+    return np.logical_and(small, alone)
 
 
 def _at_least(errors: Floats, floor: float, unknown: float) -> Floats:

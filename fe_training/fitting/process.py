@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.fitting.points import FitPoints
+from fe_training.fitting.scatter import Scatter, likeliest_scatter, smoothed
 from fe_training.fitting.touch import Touch
 from surrogate.contact.coordinates import (
     POWER,
@@ -41,10 +42,16 @@ NEAREST = 0.08
 _LEFT, MOST_ACTIVE = 1e-9, 240
 _RESTARTS = 2
 
+#: Where the search for the lengths of the coordinates begins.
+_LENGTHS = np.array([2.0, 0.7, 2.0])
+
+#: How often the prior and the scatter are fitted in turn.
+_TURNS = 2
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hyperparameters:
-    """What scikit-learn finds for one quantity: the prior, and a noise beside the error bars.
+    """What is found for one quantity: the prior, and how its values scatter.
 
     Parameters
     ----------
@@ -52,36 +59,40 @@ class Hyperparameters:
         Of the prior.
     lengths : ndarray, shape (3,)
         Length scales of the coordinates.
-    extra_noise : float
-        Variance of the scatter that the points' own errors do not explain.
+    scatter : Scatter
+        Of the values.
     """
 
     mean: float
     variance: float
     lengths: Floats
-    extra_noise: float
+    scatter: Scatter
 
 
 def transformed(points: FitPoints, touch: Touch) -> dict[str, tuple[Floats, Floats, Floats]]:
-    """Return the coordinates of `surrogate.contact.coordinates`, values and variances."""
+    """Return coordinates and values of each quantity, and the variances of the meshes' differences.
+
+    The coordinates and the quantities are those of `surrogate.contact.coordinates`.
+    """
     log_g, log_alpha = np.log(points.g), np.log(points.alpha)
     touched = log_touch(touch.coefficients, log_alpha)
     wedge = wedge_functions(log_g, wedge_load(log_g))
     x, gap = log_g - touched, points.distance - 1.0
     short = (x < -NEAREST) & (gap > 0.0)
     x, gap = np.where(short, x, -1.0), np.where(short, gap, 1.0)
-    spread = np.hypot(points.distance_std * points.distance / gap, POWER * touch.error / x)
+    of_meshes = smoothed(log_g, points.alpha, (points.distance_std * points.distance / gap) ** 2)
+    spread = of_meshes + (POWER * touch.error / x) ** 2
     distance = np.log(gap / (vertex(x) * wedge["distance"]))
     found = {
         name: (
             coordinates_of(name, log_g, log_alpha, touched),
             np.log(getattr(points, name) / wedge[name]),
-            points.relative_std(name) ** 2,
+            smoothed(log_g, points.alpha, points.mesh_variance(name)),
         )
         for name in points.names
     }
     at = coordinates_of("distance", log_g, log_alpha, touched)
-    return {**found, "distance": (at[short], distance[short], spread[short] ** 2)}
+    return {**found, "distance": (at[short], distance[short], spread[short])}
 
 
 def fit_processes(
@@ -104,20 +115,20 @@ def fit_processes(
         By the names of the quantities.
     """
     processes, found = {}, {}
-    for name, (at, values, noise) in transformed(points, touch).items():
-        kept = hyperparameters[name] if hyperparameters else _fitted(at, values, noise)
-        processes[name], found[name] = process_with(kept, at, values, noise), kept
+    for name, (at, values, differences) in transformed(points, touch).items():
+        kept = hyperparameters[name] if hyperparameters else _fitted(at, values, differences)
+        processes[name], found[name] = process_with(kept, at, values, differences), kept
     return processes, found
 
 
 def process_with(
-    found: Hyperparameters, at: Floats, values: Floats, noise: Floats
+    found: Hyperparameters, at: Floats, values: Floats, differences: Floats
 ) -> GaussianProcess:
     """Return the process of given hyperparameters, with the points that carry it chosen."""
     return GaussianProcess(
         inputs=at,
         values=values,
-        noise=noise + found.extra_noise,
+        noise=found.scatter.of(differences),
         active=_active(at / found.lengths),
         mean=found.mean,
         variance=found.variance,
@@ -125,16 +136,39 @@ def process_with(
     )
 
 
-def _fitted(at: Floats, values: Floats, noise: Floats) -> Hyperparameters:
+def _fitted(at: Floats, values: Floats, differences: Floats) -> Hyperparameters:
+    """Return what makes the values the likeliest: by turns the prior and the scatter."""
+    found = _likeliest_prior(at, values, differences)
+    for _ in range(_TURNS):
+        covariance = _covariance(at / found.lengths, found.variance)
+        rest = values - found.mean
+        scatter = likeliest_scatter(covariance, rest, differences, found.scatter)
+        found = _likeliest_prior(at, values, differences, replace(found, scatter=scatter))
+    return _calibrated(found, at, values, differences)
+
+
+def _likeliest_prior(
+    at: Floats, values: Floats, differences: Floats, start: Hyperparameters | None = None
+) -> Hyperparameters:
+    """Return the prior that scikit-learn finds, and the scatter beside a share of differences.
+
+    The share is that of `start`, else 1; without a start several are tried.
+    """
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
     mean, scale = float(np.mean(values)), float(np.std(values)) or 1.0
-    kernel: Any = ConstantKernel(3.0, (1e-2, 1e4)) * RBF([2.0, 0.7, 2.0], (0.1, 50.0))
-    kernel = kernel + WhiteKernel(1e-6, (1e-10, 1e-1))
+    first = start or Hyperparameters(mean, 3.0 * scale**2, _LENGTHS, Scatter(1.0, 1e-6 * scale**2))
+    size, rest = first.variance / scale**2, max(first.scatter.extra / scale**2, 1e-10)
+    kernel: Any = ConstantKernel(size, (1e-2, 1e4)) * RBF(first.lengths, (0.1, 50.0))
+    kernel = kernel + WhiteKernel(rest, (1e-10, 1e-1))
+    share = first.scatter.share
     regressor = GaussianProcessRegressor(
-        kernel, alpha=noise / scale**2, n_restarts_optimizer=_RESTARTS, random_state=0
+        kernel,
+        alpha=share * differences / scale**2,
+        n_restarts_optimizer=0 if start else _RESTARTS,
+        random_state=0,
     )
     with warnings.catch_warnings():
         # a scatter of nothing, or a coordinate that does not matter, ends at a bound
@@ -145,8 +179,31 @@ def _fitted(at: Floats, values: Floats, noise: Floats) -> Hyperparameters:
         mean=mean,
         variance=float(signal.k1.constant_value) * scale**2,
         lengths=np.asarray(signal.k2.length_scale, dtype=float) * np.ones(at.shape[1]),
-        extra_noise=float(white.noise_level) * scale**2,
+        scatter=Scatter(share, float(white.noise_level) * scale**2),
     )
+
+
+def _calibrated(
+    found: Hyperparameters, at: Floats, values: Floats, differences: Floats
+) -> Hyperparameters:
+    """Return hyperparameters whose standard deviations fit the errors of points left out.
+
+    Between those by which 68 % are within one and 95 % within two: tails are heavier than normal
+    ones. Prior and scatter change alike, so that the mean stays as it is.
+    """
+    error, std = leave_out_errors(
+        process_with(found, at, values, differences), np.arange(len(values))
+    )
+    one, two = np.quantile(np.abs(error) / std, (0.683, 0.954))
+    factor = float(one * two / 2.0)
+    share, extra = found.scatter.share * factor, found.scatter.extra * factor
+    return replace(found, variance=found.variance * factor, scatter=Scatter(share, extra))
+
+
+def _covariance(at: Floats, variance: float) -> Floats:
+    """Return the prior covariance of points, in lengths of the process."""
+    apart = at[:, np.newaxis, :] - at[np.newaxis, :, :]
+    return np.asarray(variance * np.exp(-0.5 * np.sum(apart**2, axis=2)))
 
 
 def _active(at: Floats) -> NDArray[np.intp]:
@@ -190,8 +247,7 @@ def leave_out_errors(process: GaussianProcess, groups: NDArray[Any]) -> tuple[Fl
     C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press, 2006,
     section 5.4.2.
     """
-    apart = (process.inputs[:, None, :] - process.inputs[None, :, :]) / process.lengths
-    covariance = process.variance * np.exp(-0.5 * np.sum(apart**2, axis=2))
+    covariance = _covariance(process.inputs / process.lengths, process.variance)
     inverse = np.linalg.inv(covariance + np.diag(process.noise))
     weights = inverse @ (process.values - process.mean)
     names = np.asarray(groups)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,8 +64,8 @@ def model_card(fitted: Fitted, found: Validation) -> str:
         "cleavage; with xi = 0 and a finite ratio the force is Gamma_o, which no model gets wrong.",
         *(f"{model}:\n\n{_strengths(found.strengths[model])}" for model in MODELS),
         "## Standard deviations of `gp`",
-        "Share of points within one and two standard deviations, the finite elements' error bars "
-        "included; a normal distribution has 68 % and 95 %.",
+        "Share of points within one and two standard deviations, with what the values themselves "
+        "scatter by; a normal distribution has 68 % and 95 %.",
         _calibration(found),
         "## What `auto` promises",
         "Its bounds come from the campaign alone, from points left out. Forces"
@@ -257,17 +258,31 @@ def _beyond(found: Validation) -> Iterable[str]:
     if found.beyond is None:
         yield "No solution there says how far that is off; the error is unknown."
         return
+    bounds = found.beyond.bounds
     yield (
         f"Largest relative errors, each with the solution's own error bar, at {found.beyond.count} "
-        f"solutions that no fit has seen, up to "
-        f"{found.beyond.factor:.2g} times the highest g. Farther on the error is unknown."
+        "solutions that no fit has seen; over g/(highest g) and alpha. `auto` with "
+        "`extrapolate=True` states twice as much. Elsewhere the error is unknown."
     )
-    names = [name for name in _SYMBOLS if name in found.beyond.errors["table"]]
+    names = [name for name in _SYMBOLS if name in bounds.errors["table"]]
     rows = [
-        (model, *(_percent(errors[name]) for name in names))
-        for model, errors in found.beyond.errors.items()
+        (
+            model,
+            f"{alpha[0]:g} to {alpha[1]:g}",
+            f"up to {end:g}",
+            *(_percent_or_unknown(errors[name][row, column]) for name in names),
+        )
+        for model, errors in bounds.errors.items()
+        for column, alpha in enumerate(pairwise(bounds.alpha))
+        for row, end in enumerate(bounds.g[1:])
+        if any(np.isfinite(errors[name][row, column]) for name in names)
     ]
-    yield markdown_table(("model", *(_SYMBOLS[name] for name in names)), rows)
+    head = ("model", "alpha", "g/(highest g)", *(_SYMBOLS[name] for name in names))
+    yield markdown_table(head, rows)
+
+
+def _percent_or_unknown(error: float) -> str:
+    return _percent(error) if np.isfinite(error) else "unknown"
 
 
 def _formula(fitted: Fitted) -> Iterable[str]:

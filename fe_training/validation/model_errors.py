@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.fitting.points import FitPoints
+from fe_training.validation.continuation import Continued
 from surrogate.basics.elementwise import apply
 from surrogate.choosing.auto import AutomaticTerms
 from surrogate.choosing.candidates import candidates
@@ -26,13 +27,11 @@ __all__ = [
     "RATIOS",
     "SHORT",
     "XIS",
-    "Continued",
     "Errors",
     "Validation",
     "by_strength",
     "calibration",
     "contact_errors",
-    "continued",
     "finite_element_errors",
     "force_errors",
     "promises",
@@ -157,20 +156,15 @@ def regions(fitted: Fitted, points: FitPoints) -> dict[str, Mask]:
     }
 
 
-def calibration(
-    errors: Floats, std: Floats, own: Floats, where: Mask | None = None
-) -> dict[str, float]:
-    """Return the shares of errors within one and two standard deviations, own error bars included.
+def calibration(errors: Floats, std: Floats, own: Floats) -> dict[str, float]:
+    """Return the shares of errors within one and two standard deviations.
 
     Parameters
     ----------
     errors, std, own : ndarray, shape (points,)
-        Relative errors of a prediction, its standard deviations and those of the truth.
-    where : ndarray of bool, optional
-        The points that count.
+        Errors of a prediction, its standard deviations and those of the truth.
     """
     z = np.abs(errors) / np.hypot(std, own)
-    z = z if where is None else z[where]
     if not z.size:
         return {"count": 0, "one": np.nan, "two": np.nan}
     return {"count": z.size, "one": float(np.mean(z <= 1.0)), "two": float(np.mean(z <= 2.0))}
@@ -279,55 +273,6 @@ def _promised(
         np.abs((cleavage[done] + rubbed + worn) / true[done] - 1.0),
         automatic.names(number),
     )
-
-
-@dataclass(frozen=True, slots=True)
-class Continued:
-    """How far the models are off above the highest g, where their asymptotes continue them.
-
-    Parameters
-    ----------
-    count : int
-        Solutions above the highest g at their alpha; none of them was used in fitting.
-    factor : float
-        How many times the highest g they reach [-].
-    errors : mapping of str to mapping of str to float
-        By model and function, the largest relative error, with the solution's own [-].
-    """
-
-    count: int
-    factor: float
-    errors: Mapping[str, Mapping[str, float]]
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return what goes into the file of the models."""
-        return {"count": self.count, "factor": self.factor, "errors": self.errors}
-
-
-def continued(fitted: Fitted, points: FitPoints) -> Continued | None:
-    """Return the errors at points above the highest g; None where there are none.
-
-    Parameters
-    ----------
-    fitted : Fitted
-        The models, fitted without these points.
-    points : FitPoints
-        Where the truth is known; those outside otherwise do not count.
-    """
-    first, last = fitted.limits.alpha
-    highest = fitted.limits.highest_g(points.alpha)
-    some = points.taken((points.g > highest) & (points.alpha >= first) & (points.alpha <= last))
-    if not len(some):
-        return None
-    errors = {
-        name: {
-            function: float(np.max(np.abs(error) + some.relative_std(function)))
-            for function, error in contact_errors(model, some).items()
-        }
-        for name, model in fitted.models.items()
-    }
-    factor = float(np.max(some.g / fitted.limits.highest_g(some.alpha)))
-    return Continued(len(some), factor, errors)
 
 
 @dataclass(frozen=True, slots=True)

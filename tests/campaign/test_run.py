@@ -87,23 +87,27 @@ def test_a_run_that_is_killed_goes_on_with_the_same_bits(small, tmp_path, driver
     assert row_bytes(killed) == row_bytes(reference)
 
 
-def test_a_path_is_passed_as_a_whole_again_but_only_what_was_missing_is_written(small, tmp_path):
+@pytest.mark.parametrize("missing", [-1, 1])
+def test_a_path_is_passed_again_up_to_what_was_missing_and_only_that_is_written(
+    small, tmp_path, missing
+):
     """What an engine makes of a value may depend on the values before it."""
     run(small, tmp_path)
     store, asked = Store(tmp_path), []
     path = small.together(small.configurations()[-1])
     assert len(path) > 2
     stamps = {one: store.stamp(one) for one in path}
-    store.path(path[-1]).unlink()
+    store.path(path[missing]).unlink()
 
     def asking(alpha, targets, settings, report):
         asked.append(targets)
         solve_path(alpha, targets, settings, report)
 
     run(small, tmp_path, solve=asking)
-    assert asked == [[one.target for one in path]]
+    last = path.index(path[missing])
+    assert asked == [[one.target for one in path[: last + 1]]]
     changed = [one for one in path if store.stamp(one) != stamps[one]]
-    assert changed == path[-1:]
+    assert changed == [path[missing]]
 
 
 def test_one_process_and_two_write_the_same(small, tmp_path, row_bytes):

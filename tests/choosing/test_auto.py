@@ -184,16 +184,16 @@ def test_contact_functions_within_a_tolerance():
 def test_above_the_highest_g_the_measured_error_of_the_asymptote_holds_as_far_as_it_was_measured(
     installed,
 ):
-    errors = {"table": {"arc": 0.03, "normal_load": 0.01}}
-    told = {"count": 5, "factor": 8.0, "errors": errors}
+    cells = {"arc": [[0.03], [0.05], [None]], "normal_load": [[0.01], [0.02], [None]]}
+    told = {"count": 5, "g": [1.0, 3.0, 8.0, 10.0], "alpha": [2.0, 9.0], "errors": {"table": cells}}
     known = candidates(replace(installed, about={**installed.about, "beyond": told}))
     high = installed.limits.highest_g(3.0)
-    for factor, ends in ((2.0, True), (7.9, True), (8.1, False)):
+    for factor, error in ((2.0, 0.03), (7.9, 0.05), (8.1, np.nan), (11.0, np.nan)):
         scene = (1.0, factor * high, 1.0, 0.0, 50.0, 3.0)
         friction, wear, inside, _, bound = AutomaticTerms(scene, None, known=known)(*scene)
         assert not inside
         assert friction == 0.0
-        expected = 2.0 * 0.03 * wear / (factor * high + wear) if ends else np.nan
+        expected = 2.0 * error * wear / (factor * high + wear)
         assert bound == pytest.approx(expected, nan_ok=True)
         with np.errstate(all="ignore"):  # under which every kernel is evaluated
             many = AutomaticTerms(scene, None, known=known)(*(np.array([v, v]) for v in scene))

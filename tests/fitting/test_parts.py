@@ -8,7 +8,16 @@ import pytest
 from made_up import points
 
 from fe_training.fitting.process import leave_out_errors
-from surrogate.contact.coordinates import log_touch, log_touch_slope, vertex
+from fe_training.fitting.scatter import Scatter, likeliest_scatter, smoothed
+from surrogate.contact.coordinates import (
+    coordinates,
+    coordinates_of,
+    log_touch,
+    log_touch_slope,
+    tip_coordinate,
+    tip_slope,
+    vertex,
+)
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import toughness_of
 from surrogate.contact.formula import BlendModel, distance_formula
@@ -58,6 +67,40 @@ def test_slope_of_the_touch():
     difference = (log_touch(coefficients, 1.2 + h) - log_touch(coefficients, 1.2 - h)) / (2.0 * h)
     assert log_touch_slope(coefficients, 1.2) == pytest.approx(difference, rel=1e-9)
     assert log_touch_slope((0.3,), 1.2) == 0.0
+
+
+def test_the_coordinate_of_what_feels_the_tip_rises_and_jumps():
+    x, h = np.array([-800.0, -2.0, -0.05, 0.4]), 1e-6
+    difference = (tip_coordinate(x + h, x > 0.0) - tip_coordinate(x - h, x > 0.0)) / (2.0 * h)
+    assert tip_slope(x) == pytest.approx(difference, abs=1e-8)
+    before, past = (float(tip_coordinate(0.0, side)) for side in (False, True))
+    assert before == 0.0 < past
+    assert tip_coordinate(1e308, True) == 1e308
+    for name in ("arc", "slip_load"):
+        at = coordinates_of(name, x, 1.0, 0.0)
+        np.testing.assert_array_equal(at, coordinates(x, 1.0, 0.0))
+
+
+@pytest.mark.parametrize("share", [0.04, 0.5])
+def test_the_scatter_is_found_again(share):
+    random = np.random.default_rng(4)
+    at = np.linspace(0.0, 6.0, 400)
+    covariance = np.exp(-0.5 * (at[:, np.newaxis] - at) ** 2)
+    differences = 10.0 ** random.uniform(-6.0, -3.0, len(at))
+    values = np.sin(at) + random.normal(size=len(at)) * np.sqrt(share * differences)
+    found = likeliest_scatter(covariance, values, differences, Scatter())
+    # a variance from n numbers is known to sqrt(2/n) of it: 7 %, and three times that is allowed
+    assert found.share == pytest.approx(share, rel=3.0 * np.sqrt(2.0 / len(at)))
+    assert found.extra < share * np.median(differences)
+
+
+def test_variances_are_averaged_over_neighbours_of_one_alpha():
+    log_g = np.tile(np.linspace(0.0, 8.0, 9), 2)
+    alpha = np.repeat([2.0, 3.0], 9)
+    averaged = smoothed(log_g, alpha, np.where(alpha == 2.0, 1.0, np.eye(9)[4][np.r_[:9, :9]]))
+    assert averaged[:9] == pytest.approx(1.0)
+    assert np.argmax(averaged[9:]) == 4
+    assert np.all(averaged > 0.0)
 
 
 @pytest.mark.parametrize("g", [1e-300, 1e-9, 0.3, 0.999999])
