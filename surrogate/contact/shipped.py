@@ -10,6 +10,7 @@ from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surrogate.basics.files import file_name, models_folder
 from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
@@ -119,9 +120,12 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
             for name, p in fitted.processes.items()
         },
     }
-    arrays: dict[str, Any] = {}
-    for name, process in fitted.processes.items():
-        arrays[f"{name}.points"] = process.inputs[:, :2]
+    inputs = [process.inputs[:, :2] for process in fitted.processes.values()]
+    points, rows = np.unique(np.concatenate(inputs), axis=0, return_inverse=True)
+    parts = np.split(rows.ravel().astype(np.uint16), np.cumsum([len(some) for some in inputs])[:-1])
+    arrays: dict[str, Any] = {"points": points}  # of most processes the same
+    for (name, process), part in zip(fitted.processes.items(), parts, strict=True):
+        arrays[f"{name}.rows"] = part
         arrays[f"{name}.values"] = process.values
         arrays[f"{name}.noise"] = process.noise.astype(np.float32)
         arrays[f"{name}.active"] = process.active.astype(np.uint16)
@@ -229,7 +233,8 @@ class _Processes(Mapping[str, "GaussianProcess"]):
 
 
 def _require_process(name: str, prior: Mapping[str, Any], arrays: Mapping[str, Any]) -> None:
-    points, *others = (arrays[f"{name}.{part}"] for part in ("points", "values", "noise"))
+    points = _points(name, arrays)
+    others = [arrays[f"{name}.{part}"] for part in ("values", "noise")]
     known = len(points), *map(len, others)
     if len(set(known)) != 1 or np.max(arrays[f"{name}.active"], initial=0) >= known[0]:
         raise ValueError(f"the process of {name} has arrays of {known} points")
@@ -240,12 +245,22 @@ def _require_process(name: str, prior: Mapping[str, Any], arrays: Mapping[str, A
         raise ValueError(f"the process of {name} has a noise or a length that is not positive")
 
 
+def _points(name: str, arrays: Mapping[str, Any]) -> NDArray[np.float64]:
+    """Return ln g and ln alpha of the points of a process; in the first version it has its own."""
+    if f"{name}.points" in arrays:
+        return np.asarray(arrays[f"{name}.points"])
+    points, rows = arrays["points"], arrays[f"{name}.rows"]
+    if rows.dtype.kind != "u" or np.max(rows, initial=0) >= len(points):
+        raise ValueError(f"the process of {name} has other points than the file")
+    return np.asarray(points[rows])
+
+
 def _process(
     name: str, limits: Domain, prior: Mapping[str, Any], arrays: Mapping[str, Any]
 ) -> GaussianProcess:
     from surrogate.contact.process import GaussianProcess
 
-    points = arrays[f"{name}.points"]
+    points = _points(name, arrays)
     return GaussianProcess(
         inputs=coordinates_of(name, points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
         values=arrays[f"{name}.values"],

@@ -148,7 +148,8 @@ def test_numbers_that_are_none_in_the_text_are_refused(file, word):
         ({"grid": {"beyond": 1.0}}, {}),
         ({"constants": None}, {}),
         ({}, {"arc.short": np.zeros((3, 3, 4))}),
-        ({}, {"distance.points": np.zeros(5)}),
+        ({}, {"points": np.zeros((5, 2))}),
+        ({}, {"distance.rows": np.zeros(5)}),
     ],
 )
 def test_an_incomplete_file_is_refused(file, about, arrays):
