@@ -21,11 +21,9 @@ from surrogate.errors import InputError
 __all__ = ["FILE", "REMEDY", "SCHEMA", "complete", "content_of", "read_fitted"]
 
 FILE = "surrogates.npz"
-_FAMILY, _VERSION = "wirecut-surrogates-", 3
+_FAMILY, _VERSION = "wirecut-surrogates-", 2
 SCHEMA = f"{_FAMILY}{_VERSION}"
-_READ = ("1", "3")
-"""The first version has neither A* nor B*, nor digests; the second had A* in other coordinates."""
-
+_READ = ("1", "2")  # the first version has neither A* nor B*, nor digests
 _ABOUT, _DIGESTS = "about", "digests"
 REMEDY = "install wirecut again, or make the file anew with regen-surrogate"
 

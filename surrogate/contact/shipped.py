@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from surrogate.basics.files import file_name, models_folder
 from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
 from surrogate.contact.bounds import Bounds
-from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, coordinates_of
+from surrogate.contact.coordinates import (
+    AT_THE_TIP,
+    QUANTITIES,
+    RISE,
+    SLIP_QUANTITIES,
+    STEP,
+    WITHIN,
+    coordinates_of,
+)
 from surrogate.contact.domain import Domain
 from surrogate.contact.fitted import FittedModel
 from surrogate.contact.formula import BlendModel
@@ -106,6 +114,7 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
         "domain": {"g": limits.g, "alpha": limits.alpha, "highest": limits.highest},
         "touch": limits.touch,
         "touch_error": fitted.touch_error,
+        "tip": [RISE, WITHIN, STEP],
         "growth": dict(limits.growth),
         "constants": {name: list(values) for name, values in fitted.constants.items()},
         "answers": _answers(fitted),
@@ -126,7 +135,7 @@ def to_file(fitted: Fitted) -> tuple[dict[str, Any], dict[str, Any]]:
     arrays: dict[str, Any] = {"points": points}  # of most processes the same
     for (name, process), part in zip(fitted.processes.items(), parts, strict=True):
         arrays[f"{name}.rows"] = part
-        arrays[f"{name}.values"] = process.values
+        arrays[f"{name}.values"] = process.values.astype(np.float32)  # they scatter by far more
         arrays[f"{name}.noise"] = process.noise.astype(np.float32)
         arrays[f"{name}.active"] = process.active.astype(np.uint16)
         for side, nodes in zip(("short", "past"), fitted.table.nodes[name], strict=True):
@@ -154,6 +163,8 @@ def fitted_from(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Fitted:
         names = tuple(n for n in (*QUANTITIES, *SLIP_QUANTITIES) if n in about["prior"])
         if not {*QUANTITIES} <= {*names}:
             raise ValueError(f"processes of {', '.join(names)}")
+        if {*AT_THE_TIP} & {*names} and about.get("tip") != [RISE, WITHIN, STEP]:
+            raise ValueError("A* fitted in a coordinate of an earlier version")
         grid = Grid(
             limits.log_g[0], log_alpha=limits.log_alpha, touch=limits.touch, **about["grid"]
         )
@@ -263,7 +274,7 @@ def _process(
     points = _points(name, arrays)
     return GaussianProcess(
         inputs=coordinates_of(name, points[:, 0], points[:, 1], limits.log_touch(points[:, 1])),
-        values=arrays[f"{name}.values"],
+        values=arrays[f"{name}.values"].astype(float),
         noise=arrays[f"{name}.noise"].astype(float),
         active=arrays[f"{name}.active"].astype(np.intp),
         mean=float(prior["mean"]),
