@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from surrogate.basics.files import file_name, models_folder
-from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
+from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, file_in, read_fitted
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.coordinates import QUANTITIES, SLIP_QUANTITIES, STEPS, coordinates
 from surrogate.contact.domain import Domain
@@ -21,7 +21,6 @@ from surrogate.contact.formula import BlendModel
 from surrogate.contact.grid import Grid
 from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.table import CellTable, TableModel
-from surrogate.errors import InputError
 
 if TYPE_CHECKING:
     from surrogate.contact.process import GaussianProcess
@@ -361,11 +360,5 @@ def _file_at(path: str) -> str:
 
 @cache
 def _in(folder: str) -> Fitted:
-    file = os.path.join(folder, FILE)
-    if not os.path.isfile(file):
-        raise InputError(
-            f"a fitted model must have the file {FILE}, but the fitted models are not shipped with "
-            "this version; make the file with regen-surrogate, or choose a closed form such as "
-            "model='eq13'."
-        )
-    return read(file)
+    remedy = "make it with regen-surrogate, or choose a closed form such as model='eq13'"
+    return read(file_in(folder, FILE, "a fitted model", remedy))
