@@ -81,6 +81,8 @@ def test_a_region_too_small_for_its_name_is_in_the_legend():
     ax = draw(narrow)
     assert "transition" not in written(ax)
     assert "transition" in legend(ax)
+    of_errors = draw(narrow, error_of="low-toughness")  # where its colour means an error
+    assert "transition" not in legend(of_errors)
 
 
 @pytest.mark.parametrize("width", ["single", "double"])
