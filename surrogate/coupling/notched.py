@@ -52,6 +52,9 @@ class NotchedModel(OverSlip):
     notch_radius: float
     law: str = SLIP
 
+    def __str__(self) -> str:
+        return f"{super().__str__()}, notch_radius {self.notch_radius:g}"
+
     def _relative(self, radius: Any) -> Any:
         with np.errstate(all="ignore"):
             return np.divide(self.notch_radius, radius)
@@ -145,7 +148,7 @@ def require_known_notch(model: NotchedModel, scene: tuple[Any, ...]) -> None:
         remedy = (
             "the slip of a tip that touches the wire is known for alpha from 2 to "
             f"{tip.alpha:g} and g up to {tip.highest_g:g}; leave notch_radius out, or give "
-            "outside='nan'"
+            "outside='nan' where a function has it"
         )
     else:
         ends = tip.radii[0], min(tip.radii[-1], tip.most / g)
