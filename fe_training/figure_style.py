@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-__all__ = ["ALPHAS", "DISTANCE", "STYLES", "TOUGHNESS", "Columns", "plain_log_ticks"]
+__all__ = ["ALPHAS", "DISTANCE", "STYLES", "TOUGHNESS", "Columns"]
 
 Columns = dict[tuple[str, str], Any]
 
@@ -24,12 +20,3 @@ STYLES: dict[float, dict[str, Any]] = {
 
 DISTANCE = r"distance to the tip $\delta/R_w$ [-]"
 TOUGHNESS = r"$g = \Gamma_o/(\mu R_w)$ [-]"
-
-
-def plain_log_ticks(ax: Axes, subs: Sequence[float]) -> None:
-    """Number a logarithmic vertical axis at multiples of the powers of ten, without exponents."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
-    ax.yaxis.set_major_locator(LogLocator(subs=tuple(subs)))
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.yaxis.set_minor_formatter(NullFormatter())

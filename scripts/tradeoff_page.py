@@ -183,7 +183,7 @@ def draw(found: Sequence[Measured], folder: Path) -> None:
     ax.plot(*ends, color=GREY, linewidth=0.8, zorder=0)
     for number, m in enumerate(shown):
         _name(ax, m, below=number % 2 == 0 and m.force.largest < 0.01)
-    ax.set(xscale="log", yscale="log", xlim=(2.0, 3e10), ylim=(0.02, 600.0))
+    ax.set(xscale="log", yscale="log", xlim=(0.5 * shown[0].cost, 3e10), ylim=(0.02, 600.0))
     label_axes(ax, "processor time of a value [ns]", r"largest error of $F_{ss}$ [%]")
     handles = ax.plot([], [], "o", color=BLUE, ms=4.5, label="this library")
     handles += ax.plot([], [], "D", color=RED, ms=4.5, label="other libraries, finite elements")

@@ -113,9 +113,7 @@ def laws_table(told: Sequence[Verdict]) -> str:
     rows = [
         [
             one.law if one.law == one.used or not one.used else f"{one.law}: {one.used}",
-            *_numbers(one),
-            one.is_work,
-            one.is_below,
+            *(cell or "-" for cell in (*_numbers(one), one.is_work, one.is_below)),
         ]
         for one in told
     ]

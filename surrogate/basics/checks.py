@@ -271,6 +271,11 @@ WORK_OF_FRACTURE = Quantity(
     "J/m^3",
     "give the strain energy density at tensile failure in joules a cubic metre",
 )
+#: Where numbers can be believed to be those of a cut, in the order of a scene [SI].
+BELIEVABLE = ((1.0, 1e8), (1e-3, 1e6), (1e-6, 1e-2), (0.0, 2.0), (1.0, 1e9))
+LONGEST_COHESIVE = 1.0
+"""The longest Gamma_o/mu that can be believed [m]."""
+
 RTOL = Quantity("rtol", "", "give the relative error that will do, such as 0.02", lower=SMALLEST)
 
 

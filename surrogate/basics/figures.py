@@ -22,6 +22,7 @@ from surrogate.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "new_figure",
     "panels",
     "picture_file",
+    "plain_log_ticks",
     "require_axes",
     "require_matplotlib",
     "save_figure",
@@ -301,6 +303,15 @@ def legend_over(figure: Figure, handles: Sequence[Any], columns: int) -> None:
             handlelength=1.8,
             columnspacing=1.2,
         )
+
+
+def plain_log_ticks(axis: Axis, subs: Sequence[float]) -> None:
+    """Number a logarithmic axis at multiples of the powers of ten, without exponents."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=tuple(subs)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def label_axes(ax: Axes, x: str, y: str) -> None:

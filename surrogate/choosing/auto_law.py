@@ -131,6 +131,7 @@ class LawfulTerms:
         named: FittedModel | None = None,
     ) -> None:
         self.values, self.of_dissipation, self.named = values, of_dissipation, named
+        self.single = {*map(type, values)} == {float}
         self.rtol, self.promised = DEFAULT_RTOL if rtol is None else rtol, rtol is not None
         self.known = _at(*location())
         self.kappa = self.known.kappa if named is None or _slips(named) else None
@@ -154,7 +155,7 @@ class LawfulTerms:
         place = self.kappa.place(g, scene[5], scene[3], relative)
         if place.known is False:
             return self._projected(scene)
-        if {*map(type, scene)} == {float}:
+        if self.single:
             return self._of_one(scene, place)
         return self._of_many(scene, place)
 
@@ -267,7 +268,7 @@ class LawfulTerms:
         if model is None:
             rtol = _FIT_PART * self.rtol if law == SLIP else DEFAULT_RTOL
             known = self.known.of_law[law]
-            if {*map(type, scene)} == {float}:
+            if self.single:
                 g, rest = quotient(scene[1], scene[0], scene[2]), self._rest(scene)
                 if (one := terms_of_one(known, g, scene, rest, rtol)) is not None:
                     return one[0], one[1], True, one[2], one[3]

@@ -100,20 +100,22 @@ def common_model(known: Candidates, box: Box, rtol: float) -> CommonTerms | None
     ('table', True, True)
     """
     pieces = _Pieces.of(known, box)
-    if pieces is None:
-        return None
-    shares = pieces.shares()
+    return None if pieces is None else _common(pieces, rtol)
+
+
+def _common(pieces: _Pieces, rtol: float) -> CommonTerms | None:
+    models, shares = pieces.known.models, pieces.shares()
     worst = [_times(*each) for each in zip(shares, pieces.errors(FREE), strict=True)]
     together = _plus(*worst)
     free = _is_below(together, rtol)
     if free:
-        return CommonTerms(known.models[0], False, False, float(together[1].max()))
+        return CommonTerms(models[0], False, False, float(together[1].max()))
     alone = [_is_below(each, NEGLIGIBLE * rtol) for each in worst]
     if free is None or None in alone:
         return None
     left = _plus(*(_times(*each) for each in zip(worst, map(float, alone), strict=True)))  # type: ignore[arg-type]
     needed, most = [not each for each in alone], pieces.most(shares)
-    for model in known.models[1:]:
+    for model in models[1:]:
         errors = pieces.errors(model.name)
         of: list[Any] = [e if need else 0.0 for e, need in zip(errors, needed, strict=True)]
         parts = _plus(*(_times(*each) for each in zip(most, of, strict=True)))
@@ -145,13 +147,12 @@ def common_slip(
     rtol, part : float
         Relative error that will do [-], and the share of it that the model may have.
     """
-    terms = common_model(known, box, part * rtol)
-    if terms is None or uncovered(kappa, box) is not None:
+    pieces = _Pieces.of(known, box)
+    terms = None if pieces is None else _common(pieces, part * rtol)
+    if pieces is None or terms is None or uncovered(kappa, box) is not None:
         return None
     g, alpha = g_range(box), box["stiffening_exponent"]
     swing = np.expm1(bounds_over(kappa, g, alpha, box)[1])
-    pieces = _Pieces.of(known, box)
-    assert pieces is not None  # of which there are terms
     arc, load = (_times(*each) for each in zip(pieces.estimates, pieces.mosts(), strict=True))
     drag = arc[1] + load[1]
     error = np.maximum(

@@ -15,7 +15,7 @@ from surrogate.basics.files import check_outputs, model_file
 from surrogate.basics.records import number, table
 from surrogate.choosing.by_name import AUTO
 from surrogate.choosing.laws import PROJECTED
-from surrogate.cli.common import add_law_option, share, whole_number
+from surrogate.cli.common import add_law_option, add_notch_option, share, whole_number
 from surrogate.cli.identify import add_table_options
 from surrogate.cli.map_points import (
     Drawn,
@@ -157,6 +157,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add("--fix", nargs="+", default=[], metavar="NAME=VALUE", help="what else is given")
     add("--model", help="force model, see 'wirecut models' (default eq13, or that of --points)")
     add_law_option(command, any_law=True)
+    add_notch_option(command)
     command.set_defaults(law=None)
     for option, metavar, default, words in (
         ("--threshold", "SHARE", DOMINANT_SHARE, "share from which a term dominates (default 2/3)"),
@@ -345,6 +346,7 @@ def run_map(options: argparse.Namespace, own: Sequence[Drawn] = ()) -> RegimeMap
         nodes=options.nodes,
         threshold=options.threshold,
         miss=options.miss,
+        notch_radius=options.notch_radius,
     )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from surrogate.basics.files import file_name, read_archive, sha256
 from surrogate.errors import InputError
 
-__all__ = ["FILE", "REMEDY", "SCHEMA", "complete", "content_of", "read_fitted"]
+__all__ = ["FILE", "REMEDY", "SCHEMA", "complete", "content_of", "file_in", "read_fitted"]
 
 FILE = "surrogates.npz"
 _FAMILY, _VERSION = "wirecut-surrogates-", 2
@@ -81,6 +82,39 @@ def content_of(about: Mapping[str, Any], arrays: Mapping[str, Any]) -> bytes:
             entry = zipfile.ZipInfo(f"{name}.npy")  # of a fixed date
             archive.writestr(entry, member.getvalue(), zipfile.ZIP_DEFLATED)
     return buffer.getvalue()
+
+
+def file_in(
+    folder: str, name: str, what: str, remedy: str, error: type[InputError] = InputError
+) -> str:
+    """Return the path of a file of models in a folder.
+
+    Parameters
+    ----------
+    folder, name : str
+        Where the models in use are, and the file.
+    what : str
+        What needs the file, with "must have".
+    remedy : str
+        What to do without it.
+    error : type
+        The kind of the error where there is none.
+
+    Examples
+    --------
+    >>> file_in("/", "kappa.npz", "a law", "choose another law")
+    Traceback (most recent call last):
+        ...
+    surrogate.errors.InputError: a law must have the file kappa.npz among the models in use, but / \
+has none; choose another law.
+    """
+    file = os.path.join(folder, name)
+    if os.path.isfile(file):
+        return file
+    raise error(
+        f"{what} must have the file {name} among the models in use, but {folder} has none; "
+        f"{remedy}."
+    )
 
 
 def _digest(values: NDArray[Any]) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surrogate.basics.files import file_name, models_folder
-from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, read_fitted
+from surrogate.contact.archive import FILE, SCHEMA, complete, content_of, file_in, read_fitted
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.coordinates import (
     AT_THE_TIP,
@@ -30,7 +30,6 @@ from surrogate.contact.formula import BlendModel
 from surrogate.contact.grid import Grid
 from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.table import CellTable, TableModel
-from surrogate.errors import InputError
 
 if TYPE_CHECKING:
     from surrogate.contact.process import GaussianProcess
@@ -385,11 +384,5 @@ def _file_at(path: str) -> str:
 
 @cache
 def _in(folder: str) -> Fitted:
-    file = os.path.join(folder, FILE)
-    if not os.path.isfile(file):
-        raise InputError(
-            f"a fitted model must have the file {FILE}, but the fitted models are not shipped with "
-            "this version; make the file with regen-surrogate, or choose a closed form such as "
-            "model='eq13'."
-        )
-    return read(file)
+    remedy = "make it with regen-surrogate, or choose a closed form such as model='eq13'"
+    return read(file_in(folder, FILE, "a fitted model", remedy))

@@ -341,10 +341,8 @@ def _slopes(nodes: int) -> Array:
 
     It is that of the cubic spline whose third derivative does not jump at the last nodes but one.
     """
-    left, right = np.eye(nodes) * 4.0, np.zeros((nodes, nodes))
-    for i in range(1, nodes - 1):
-        left[i, [i - 1, i + 1]] = 1.0
-        right[i, [i - 1, i + 1]] = -3.0, 3.0
+    below, above = np.eye(nodes, k=-1), np.eye(nodes, k=1)
+    left, right = 4.0 * np.eye(nodes) + below + above, 3.0 * (above - below)
     left[0, :2], right[0, :3] = (1.0, 2.0), (-2.5, 2.0, 0.5)
     left[-1, -2:], right[-1, -3:] = (2.0, 1.0), (-0.5, -2.0, 2.5)
     return np.asarray(np.linalg.solve(left, right))

@@ -307,7 +307,7 @@ class Amplification:
         if type(j) is int and type(k) is int:
             if type(i) is int:
                 rows = self._rows
-                first, last = (_across(rows[i + a], j, k, t, u) for a in (0, 1))
+                first, last = _across(rows[i], j, k, t, u), _across(rows[i + 1], j, k, t, u)
             else:  # which leaves a function of x
                 along = _across(self.reach.transpose(1, 2, 0), j, k, t, u)
                 first, last = along[i], along[i + 1]
@@ -393,7 +393,8 @@ def _across(table: Any, j: Any, k: Any, t: Any, u: Any, *i: Any) -> Any:
     if i:
         a, b, c, d = (table[(j + m, k + n, *i)] for m in (0, 1) for n in (0, 1))
     else:
-        a, b, c, d = table[j][k], table[j][k + 1], table[j + 1][k], table[j + 1][k + 1]
+        near, far = table[j], table[j + 1]
+        a, b, c, d = near[k], near[k + 1], far[k], far[k + 1]
     return (1.0 - t) * ((1.0 - u) * a + u * b) + t * ((1.0 - u) * c + u * d)
 
 
@@ -413,7 +414,7 @@ def edge_of(direction: Any, largest: tuple[float, float]) -> tuple[Any, Any]:
 
 def _between(value: Any, low: float, high: float) -> Any:
     if type(value) is float:
-        return min(max(value, low), high)
+        return value if low <= value <= high else min(max(value, low), high)
     return np.minimum(np.maximum(value, low), high)
 
 
@@ -422,7 +423,9 @@ def _node(axis: tuple[float, float, int], value: Any) -> tuple[Any, Any]:
     first, step, last = axis
     place = (value - first) / step
     if type(place) is float:
-        number = min(max(int(place), 0), last) if place == place else 0
+        number = int(place) if place == place else 0
+        if not 0 <= number <= last:
+            number = 0 if number < 0 else last
         return number, place - number
     numbers = np.fmin(np.fmax(place, 0.0), last).astype(np.intp)
     return numbers, place - numbers

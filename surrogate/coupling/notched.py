@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -12,12 +11,12 @@ import numpy as np
 
 from surrogate.basics.checks import SMALLEST, Quantity
 from surrogate.basics.elementwise import product, quotient, ratio, where
-from surrogate.contact.archive import complete, read_fitted
+from surrogate.contact.archive import complete, file_in, read_fitted
 from surrogate.contact.fitted import SLIP, FittedModel
 from surrogate.contact.shipped import folder_in_use
 from surrogate.coupling.model import OverSlip
 from surrogate.coupling.notch import NotchSlip
-from surrogate.errors import DomainError, InputError
+from surrogate.errors import DomainError
 
 __all__ = [
     "NOTCH_FILE",
@@ -52,6 +51,9 @@ class NotchedModel(OverSlip):
     tip: NotchSlip
     notch_radius: float
     law: str = SLIP
+
+    def __str__(self) -> str:
+        return f"{super().__str__()}, notch_radius {self.notch_radius:g}"
 
     def _relative(self, radius: Any) -> Any:
         with np.errstate(all="ignore"):
@@ -146,7 +148,7 @@ def require_known_notch(model: NotchedModel, scene: tuple[Any, ...]) -> None:
         remedy = (
             "the slip of a tip that touches the wire is known for alpha from 2 to "
             f"{tip.alpha:g} and g up to {tip.highest_g:g}; leave notch_radius out, or give "
-            "outside='nan'"
+            "outside='nan' where a function has it"
         )
     else:
         ends = tip.radii[0], min(tip.radii[-1], tip.most / g)
@@ -179,13 +181,8 @@ def notch_slip() -> NotchSlip:
 
 @cache
 def _in(folder: str) -> NotchSlip:
-    file = os.path.join(folder, NOTCH_FILE)
-    if not os.path.isfile(file):
-        raise InputError(
-            f"notch_radius must have the file {NOTCH_FILE} beside the models in use, but {folder} "
-            "has none; leave notch_radius out, or make the file with scripts/study-notches."
-        )
-    return notch_slip_of(read_fitted(file)[0])
+    remedy = "leave notch_radius out, or make it with scripts/study-notches"
+    return notch_slip_of(read_fitted(file_in(folder, NOTCH_FILE, "notch_radius", remedy))[0])
 
 
 def notch_slip_of(about: Mapping[str, Any]) -> NotchSlip:

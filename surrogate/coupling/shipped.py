@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from surrogate.contact.archive import complete, content_of, read_fitted
-from surrogate.contact.shipped import FILE, folder_in_use
+from surrogate.contact.archive import complete, content_of, file_in, read_fitted
+from surrogate.contact.shipped import folder_in_use
 from surrogate.coupling.amplification import Amplification
 from surrogate.coupling.polynomial import Polynomial
 from surrogate.errors import InputError
@@ -121,11 +120,6 @@ class _MissingError(InputError):
 
 @cache
 def _in(folder: str) -> Amplification:
-    file = os.path.join(folder, AMPLIFICATION_FILE)
-    if not os.path.isfile(file):
-        raise _MissingError(
-            f"the law 'coupled' must have the file {AMPLIFICATION_FILE} beside {FILE}, but "
-            f"{folder} has none; choose the law 'slip', or make the file with "
-            "python -m fe_training.coupled --fit."
-        )
+    remedy = "choose the law 'slip', or make it with python -m fe_training.coupled --fit"
+    file = file_in(folder, AMPLIFICATION_FILE, "the law 'coupled'", remedy, _MissingError)
     return amplification_of(*read_fitted(file))

@@ -6,9 +6,12 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
+from surrogate.basics.checks import BELIEVABLE, LONGEST_COHESIVE
 from surrogate.errors import ImplausibleInputWarning
 
 __all__ = ["are_believable", "warn_of_scene"]
+
+_MU, _GAMMA, _RADIUS, _XI, _TAU = BELIEVABLE
 
 
 def are_believable(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any) -> bool:
@@ -19,14 +22,14 @@ def are_believable(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any) -> bool:
     >>> are_believable(685.0, 1.6, 0.2e-3, 0.0, 7750.0), are_believable(685.0, 1.6, 0.2, 0.0, 0.0)
     (True, False)
     """
-    # The ranges of `plausibility` once more: every force of one wire passes here.
+    # without a loop: every force of one wire passes here
     return bool(
-        (1.0 <= mu <= 1e8 or mu == 0.0)
-        and (1e-3 <= gamma <= 1e6 or gamma == 0.0)
-        and (1e-6 <= radius <= 1e-2 or radius == 0.0)
-        and 0.0 <= xi <= 2.0
-        and (1.0 <= tau <= 1e9 or tau == 0.0)
-        and (gamma <= mu or mu == 0.0)
+        (_MU[0] <= mu <= _MU[1] or mu == 0.0)
+        and (_GAMMA[0] <= gamma <= _GAMMA[1] or gamma == 0.0)
+        and (_RADIUS[0] <= radius <= _RADIUS[1] or radius == 0.0)
+        and _XI[0] <= xi <= _XI[1]
+        and (_TAU[0] <= tau <= _TAU[1] or tau == 0.0)
+        and (gamma <= LONGEST_COHESIVE * mu or mu == 0.0)
     )
 
 

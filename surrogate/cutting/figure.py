@@ -29,7 +29,7 @@ from surrogate.basics.figures import (
 )
 from surrogate.basics.picture_form import picture_form
 from surrogate.choosing.by_name import AUTO
-from surrogate.choosing.laws import AnyLaw, is_chosen, of_law
+from surrogate.choosing.laws import AnyLaw, of_law
 from surrogate.contact.base import ForceModel
 from surrogate.cutting.force import CuttingForce, force_of
 from surrogate.cutting.other_law import law_for
@@ -213,14 +213,13 @@ def _draw_total(
     ax: Axes, x: Array, total: Array, force: CuttingForce, model: str | ForceModel | AnyLaw
 ) -> list[Any]:
     holds = np.broadcast_to(force.in_domain, x.shape)
-    name = "cheapest model exact enough" if is_chosen(model) else f"model {model}"
     unknown = np.zeros(x.shape, dtype=bool)
     if isinstance(model, AnyLaw) and force.law_error is not None:
         unknown = np.isnan(np.broadcast_to(force.law_error, x.shape)) & holds
     handles: list[Any] = []
     lines: tuple[tuple[Any, Any, float, str], ...] = (
-        (holds & ~unknown, "-", 1.2, name),
-        (unknown, (0, (1, 1)), 1.2, "law projected, error unknown"),
+        (holds & ~unknown, "-", 1.2, f"model {model}"),
+        (unknown, (0, (1, 1)), 1.2, "projected, error unknown"),
         (~holds, "--", 0.9, "beyond its range"),
     )
     for where, dashes, width, label in lines:
@@ -245,7 +244,7 @@ def _shown_error(force: CuttingForce, shape: tuple[int, ...]) -> tuple[Any, str]
         return np.full(shape, np.nan), ""
     if np.isfinite(force.relative_error).any():
         return np.broadcast_to(force.relative_error, shape), "its error"
-    return np.broadcast_to(force.fit_error, shape), "its fit's error"
+    return np.broadcast_to(force.fit_error, shape), "fit's error"
 
 
 def _with_ends(where: Any, holds: Any, total: Array) -> Array:

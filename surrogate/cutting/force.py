@@ -292,14 +292,8 @@ def force_of(
     fitted = isinstance(chosen, FittedModel)
     if not fitted:
         chosen.stiffening.checked(scene.stiffening_exponent)
-
-    def parts(mu: Any, gamma: Any, radius: Any, xi: Any, tau: Any, alpha: Any) -> tuple[Any, ...]:
-        cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
-        friction, wear, holds = chosen.evaluated(mu, gamma, radius, xi, tau, alpha)
-        return cleavage + friction + wear, cleavage, friction, wear, holds
-
-    total, cleavage, friction, wear, holds = apply(
-        parts, values, (float, float, float, float, bool), AT_ONCE if fitted else WHOLE
+    total, cleavage, friction, wear, holds = _summed(
+        values, chosen.evaluated, (float, float, bool), AT_ONCE if fitted else WHOLE
     )
     if fitted and not (holds is True or np.all(holds)):
         if not stays:
@@ -326,15 +320,17 @@ def _blanked(force: CuttingForce, scene: Scene, blank: bool) -> CuttingForce:
     return force
 
 
-def _summed(scene: Scene, terms: Any) -> Any:
+def _summed(values: tuple[Any, ...], terms: Any, dtypes: Any, whole: int = AT_ONCE) -> Any:
     """Return total, cleavage, friction, wear, and what else a kernel of terms says of points."""
+    if {*map(type, values)} == {float}:
+        return _parts(terms, values)
+    return apply(lambda *scene: _parts(terms, scene), values, (float, float, *dtypes), whole)
 
-    def parts(mu: Any, gamma: Any, *others: Any) -> tuple[Any, ...]:
-        cleavage = gamma + 0.0  # a copy, so that no result is the caller's array
-        friction, wear, *rest = terms(mu, gamma, *others)
-        return cleavage + friction + wear, cleavage, friction, wear, *rest
 
-    return apply(parts, scene.values(), (float, float, *terms.dtypes), AT_ONCE)
+def _parts(terms: Any, scene: tuple[Any, ...]) -> tuple[Any, ...]:
+    cleavage = scene[1] + 0.0  # a copy, so that no result is the caller's array
+    told = terms(*scene)
+    return cleavage + told[0] + told[1], cleavage, *told
 
 
 @cache
@@ -346,13 +342,17 @@ def _choosing() -> Any:
 
 
 def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) -> CuttingForce:
-    values, choosing = scene.values(), _choosing()
-    if model.named is None and {*map(type, values)} != {float}:
-        common = choosing.common_terms(values, rtol)
+    choosing = _choosing()
+    lawful = choosing.LawfulTerms(scene.values(), rtol, named=model.named)
+    if lawful.single:
+        return _lawful_one(lawful, extrapolate)
+    if model.named is None:
+        common = choosing.common_terms(lawful.values, rtol)
         if common is not None:
             return _of_common(scene, common)
-    lawful = choosing.LawfulTerms(values, rtol, named=model.named)
-    total, cleavage, friction, wear, holds, number, law, fit, of_law = _summed(scene, lawful)
+    total, cleavage, friction, wear, holds, number, law, fit, of_law = _summed(
+        lawful.values, lawful, lawful.dtypes
+    )
     lawful.finish(extrapolate)
     names, laws = lawful.names(number), lawful.laws(law)
     doubt = doubt_of_law(of_law != of_law)
@@ -363,9 +363,22 @@ def _lawful(scene: Scene, model: AnyLaw, rtol: float | None, extrapolate: bool) 
     )
 
 
+def _lawful_one(lawful: Any, extrapolate: bool) -> CuttingForce:
+    """Do the same for a scene of numbers alone, with nothing that only arrays need."""
+    total, cleavage, friction, wear, holds, number, law, fit, of_law = _parts(lawful, lawful.values)
+    lawful.finish(extrapolate)
+    name, law = lawful.names(number), lawful.laws(law)
+    doubt = doubt_of_law(of_law != of_law)
+    return _complete(
+        None,
+        *(total, cleavage, friction, wear, name, fit + of_law, holds, name),
+        *(law, law, fit, of_law, () if doubt is None else (doubt,)),
+    )
+
+
 def _of_common(scene: Scene, terms: Any) -> CuttingForce:
     """Return the force of scenes that share law and model, whose errors differ."""
-    total, cleavage, friction, wear, holds = _summed(scene, terms)
+    total, cleavage, friction, wear, holds = _summed(scene.values(), terms, terms.dtypes)
     name, law = terms.model.name, terms.model.law
     names, laws = (np.broadcast_to(np.array(each), scene.shape) for each in (name, law))
     return _without_errors(
@@ -376,7 +389,7 @@ def _of_common(scene: Scene, terms: Any) -> CuttingForce:
 
 def _errors_of_each(scene: Scene) -> dict[str, Any]:
     lawful = _choosing().LawfulTerms(scene.values(), None)
-    *_, fit, of_law = _summed(scene, lawful)
+    *_, fit, of_law = _summed(lawful.values, lawful, lawful.dtypes)
     doubt = doubt_of_law(of_law != of_law)
     return {
         "relative_error": fit + of_law,
@@ -390,7 +403,9 @@ def _automatic(scene: Scene, rtol: float | None, extrapolate: bool) -> CuttingFo
     from surrogate.choosing.candidates import OUTSIDE
 
     automatic = _choosing().AutomaticTerms(scene.values(), rtol)
-    total, cleavage, friction, wear, holds, number, bound = _summed(scene, automatic)
+    total, cleavage, friction, wear, holds, number, bound = _summed(
+        automatic.values, automatic, automatic.dtypes
+    )
     automatic.finish(extrapolate)
     names = automatic.names(number)
     return _of_projected(

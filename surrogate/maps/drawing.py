@@ -14,6 +14,7 @@ from surrogate.basics.figures import (
     LARGEST_SHOWN,
     MEDIUM,
     SMALL,
+    plain_log_ticks,
 )
 from surrogate.basics.picture_form import picture_form
 from surrogate.basics.records import number, share
@@ -86,6 +87,7 @@ def axis_label(axis: MapAxis) -> str:
 Array = NDArray[np.float64]
 
 _SMOOTHINGS = 4
+_DECADE = 10.0
 _CONTACT, _HATCH = "#333333", "#909090"
 
 
@@ -99,7 +101,10 @@ def set_up(ax: Axes, made: MapRecord) -> None:
     """
     for axis, which in ((made.x, "x"), (made.y, "y")):
         getattr(ax, f"set_{which}scale")(axis.scale)
-        getattr(ax, f"set_{which}lim")(*_drawable(axis))
+        low, high = _drawable(axis)
+        getattr(ax, f"set_{which}lim")(low, high)
+        if axis.scale == "log" and high < 1.01 * _DECADE * low:  # too few powers of ten to read
+            plain_log_ticks(getattr(ax, f"{which}axis"), (1.0, 2.0, 3.0, 5.0))
         getattr(ax, f"set_{which}label")(axis_label(axis), fontsize=MEDIUM)
     ax.tick_params(which="both", labelsize=SMALL)
     ax.set_facecolor(FILLS["transition"])
@@ -215,6 +220,10 @@ def tell_fixed(ax: Axes, made: MapRecord) -> None:
         factor, unit = SHOWN_UNITS[one.unit]
         shown_unit = "" if unit == "-" else f" {unit}"
         words.append(f"${one.symbol}$ = {number(factor * value)}{shown_unit}")
+    tip = getattr(made.model, "notch_radius", None)
+    if tip is not None:
+        unit = "$R_w$" if "wire_radius" in made.units else "m"
+        words.append(rf"$r_{{\mathrm{{tip}}}}$ = {number(tip)} {unit}")
     if np.all(_law_is_unknown(made)):
         words.append("projected law, error unknown")
     ax.annotate(

@@ -138,7 +138,8 @@ def plot_regime_map(
         marks += bars(centre, error)
     tell_fixed(ax, made)
     columns = add_legend(ax, _COLUMNS[width], handles + outside)
-    if nameless := name_regions(ax, made, drawn, marks, error_of is not None):
+    nameless = name_regions(ax, made, drawn, marks, error_of is not None)
+    if nameless and error_of is None:  # else no region has a colour of its own
         regions = [patch(NAMES[name].replace("\n", " "), FILLS[name]) for name in nameless]
         add_legend(ax, columns, handles + outside + regions)
     return ax

@@ -135,6 +135,7 @@ def regime_map(
     threshold: float = DOMINANT_SHARE,
     limits: Sequence[str] = LIMITS,
     miss: float = 0.1,
+    notch_radius: float | None = None,
 ) -> RegimeMap:
     """Return a map of regimes, forces and shares over two quantities or groups.
 
@@ -172,6 +173,9 @@ def regime_map(
         Models whose limits are wanted: all of Eqs. (10), (12), (13) and (15) by default.
     miss : float, default 0.1
         Share by which a limit formula misses the model on its boundary [-].
+    notch_radius : float, optional
+        Radius of the crack's tip [m], with law="slip", as in `cutting_force`; in wire radii where
+        only dimensionless groups are given. It has to be known at every node.
 
     Returns
     -------
@@ -233,7 +237,7 @@ def regime_map(
     quantities, units = resolve(axes[0].name, axes[1].name, given)
     scene = scene_of(quantities, axes[0].values, axes[1].values[:, np.newaxis])
     share, wanted = one_number(MISS, miss), limit_names(limits)
-    model = of_law(model, law, any_law=True)
+    model = of_law(model, law, True, notch_radius)
     force = force_of(scene, model, rtol, extrapolate=True)
     regime = regime_of(scene, force, one_number(THRESHOLD, threshold), model)
     shares = term_shares(scene, force, model)

@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from surrogate.basics.checks import BELIEVABLE, LONGEST_COHESIVE
+
 __all__ = [
     "COHESIVE_LENGTH",
     "FORCE",
@@ -53,6 +55,8 @@ class Plausible:
     slips: tuple[tuple[float, str], ...]
 
 
+_MU, _GAMMA, _RADIUS, _XI, _TAU = BELIEVABLE
+
 _STRESS_SLIPS = (
     (1e3, "kPa given as Pa"),
     (1e6, "MPa given as Pa"),
@@ -64,8 +68,7 @@ _ENERGY_SLIPS = ((1e3, "kJ/m^2 given as J/m^2"), (1e-3, "mJ/m^2 given as J/m^2")
 RADIUS = Plausible(
     "the wire radius",
     "m",
-    1e-6,
-    1e-2,
+    *_RADIUS,
     (
         (1e-3, "mm given as m"),
         (1e-6, "um given as m"),
@@ -84,25 +87,23 @@ FORCE = Plausible(
 )
 """From the weakest gels, whose toughness is some mJ/m^2, to 1 kN on a millimetre."""
 
-SHEAR_MODULUS = Plausible("the shear modulus", "Pa", 1.0, 1e8, _STRESS_SLIPS)
+SHEAR_MODULUS = Plausible("the shear modulus", "Pa", *_MU, _STRESS_SLIPS)
 """From what flows under its own weight to what is no rubber any more."""
 
-TOUGHNESS = Plausible("the toughness", "J/m^2", 1e-3, 1e6, _ENERGY_SLIPS)
+TOUGHNESS = Plausible("the toughness", "J/m^2", *_GAMMA, _ENERGY_SLIPS)
 """From the weakest gels to ten times the toughest rubbers."""
 
-WEAR_STRENGTH = Plausible("the wear strength", "Pa", 1.0, 1e9, _STRESS_SLIPS)
+WEAR_STRENGTH = Plausible("the wear strength", "Pa", *_TAU, _STRESS_SLIPS)
 """Up to more than the shear strength of the strongest plastics."""
 
-FRICTION = Plausible(
-    "the friction coefficient", "", 0.0, 2.0, ((1e-2, "percent given as a number"),)
-)
+FRICTION = Plausible("the friction coefficient", "", *_XI, ((1e-2, "percent given as a number"),))
 """Up to that of clean rubber on a dry and smooth wire."""
 
 COHESIVE_LENGTH = Plausible(
     "the elasto-cohesive length Gamma_o/mu",
     "m",
     0.0,
-    1.0,
+    LONGEST_COHESIVE,
     ((1e-3, "a modulus in kPa given as Pa"), (1e-6, "a modulus in MPa given as Pa")),
 )
 """Up to some times that of the toughest and softest rubbers."""

@@ -39,7 +39,8 @@ def test_every_point_would_have_chosen_what_all_share(pairs):
         if common is None:
             continue
         lawful = LawfulTerms(scene.values(), None)
-        _, _, friction, wear, holds, number, law, fit, of_law = _summed(scene, lawful)
+        sums = _summed(lawful.values, lawful, lawful.dtypes)
+        _, _, friction, wear, holds, number, law, fit, of_law = sums
         assert set(lawful.names(number)) == {common.model.name}
         assert set(lawful.laws(law)) == {common.model.law}
         assert fit.max() <= common.bound * (1.0 + 1e-12)

@@ -254,7 +254,7 @@ def test_a_figure_is_dotted_where_the_law_is_unknown(coupled):
     scene = replace(WIRES, wire_radius=2e-3, friction_coefficient=0.15)
     ax = plot_force(scene, figure.Figure().add_subplot(), model="table")
     lines = {one.get_label(): one.get_data() for one in ax.lines}
-    x, y = lines["law projected, error unknown"]
+    x, y = lines["projected, error unknown"]
     shown = np.isfinite(y)
     assert shown.any()
     force = cutting_force(replace(scene, wire_radius=1e-3 * x[shown]), "table")

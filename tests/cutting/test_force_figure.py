@@ -30,7 +30,7 @@ def line(ax, label):
 def test_line_parts_and_wires_are_the_models(model, thickness):
     ax = drawn(model=model, thickness=thickness)
     size = thickness or 1.0
-    label = "cheapest model exact enough" if model == "auto" else f"model {model}"
+    label = f"model {model}"
     x, y = line(ax, label).get_data()
     shown = np.isfinite(y)
     law = "projected"
@@ -51,9 +51,22 @@ def test_line_parts_and_wires_are_the_models(model, thickness):
     ]
 
 
+@pytest.mark.parametrize(
+    "scene", [GEL, Scene(10e3, 5.0, [1e-4, 2e-3], 0.02, 2e3, 6.0)], ids=["gel", "tissue"]
+)
+@pytest.mark.parametrize("law", ["auto", "projected", "slip"])
+def test_no_word_of_the_legend_is_cut_off(scene, law):
+    ax = drawn(scene, law)
+    figure = ax.figure
+    figure.draw_without_rendering()
+    box = ax.get_legend().get_window_extent()
+    assert figure.bbox.x0 <= box.x0
+    assert box.x1 <= figure.bbox.x1
+
+
 def test_the_band_is_the_bound_of_the_model():
     ax = drawn()
-    (band,) = [one for one in ax.collections if "its fit's error" in str(one.get_label())]
+    (band,) = [one for one in ax.collections if "fit's error" in str(one.get_label())]
     wanted = cutting_force(Scene(685.0, 1.6, 0.432e-3, 0.1, 7750.0), law="projected")
     top = band.get_paths()[0].vertices[:, 1].max()
     assert top == pytest.approx(wanted.total * (1.0 + wanted.fit_error), rel=1e-9)
@@ -180,4 +193,4 @@ def test_the_bare_command_helps(capsys):
 def test_parameters_of_a_law_are_drawn_by_it():
     gel = Scene(685.0, 1.6, [0.1e-3, 0.4e-3], wear_strength=7750.0, law="projected")
     ax = plot_force(gel, Figure().add_subplot())
-    assert "law projected, error unknown" not in [one.get_label() for one in ax.lines]
+    assert "projected, error unknown" not in [one.get_label() for one in ax.lines]

@@ -15,6 +15,7 @@ from surrogate import (
 )
 from surrogate.basics.checks import Quantity
 from surrogate.basics.roots import narrowed
+from surrogate.cutting.regimes import touching_toughness
 from surrogate.equations import DIMENSIONLESS_TOUGHNESS
 
 GEL = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0, 3.0)
@@ -145,6 +146,16 @@ def test_arrays_are_numbers_one_by_one():
 def test_numbers_of_any_size(name, size):
     radius = transition_radius(replace(GEL, **{name: size}), "elements")
     assert radius >= 0.0
+
+
+@pytest.mark.parametrize(("alpha", "strongest"), [(2.0, 1e3), (2.25, 1e3), (2.5, 4.0)])
+@pytest.mark.parametrize("xi", [0.0, 0.01, 0.1, 0.5, 2.0])
+def test_under_the_law_of_slip_the_tip_does_not_touch_where_its_radius_would_count(
+    alpha, strongest, xi
+):
+    tau = np.geomspace(0.02, strongest, 9)  # with less, thicker wires than the table knows
+    radius = transition_radius(Scene(1.0, 1.0, 1.0, xi, tau, alpha), law="slip")
+    assert np.all(1.0 / radius < touching_toughness("table", alpha))
 
 
 def test_bad_input_is_refused():

@@ -81,6 +81,8 @@ def test_a_region_too_small_for_its_name_is_in_the_legend():
     ax = draw(narrow)
     assert "transition" not in written(ax)
     assert "transition" in legend(ax)
+    of_errors = draw(narrow, error_of="low-toughness")  # where its colour means an error
+    assert "transition" not in legend(of_errors)
 
 
 @pytest.mark.parametrize("width", ["single", "double"])
@@ -143,6 +145,16 @@ def test_nodes_that_rounding_puts_beyond_an_edge_are_not_hatched():
         force = replace(made.force, in_domain=holds)
         words = legend(draw(replace(made, force=force)))
         assert ("outside the domain" in words) is hatched
+
+
+def test_an_axis_of_a_decade_has_numbers_without_powers():
+    made = regime_map("R_w", "Gamma_o", ((1e-4, 1e-3), (1e-3, 1e2)), {"mu": 685, "tau_w": 7750})
+    ax = draw(made)
+    ax.figure.draw_without_rendering()
+    words = [one.get_text() for one in ax.get_xticklabels() if 0.1 <= one.get_position()[0] <= 1.0]
+    assert words == ["0.1", "0.2", "0.3", "0.5", "1"]
+    assert not any(one.get_text() for one in ax.get_xticklabels(minor=True))
+    assert any("10^" in one.get_text() for one in ax.get_yticklabels())
 
 
 def test_the_error_of_a_formula_has_a_bar_of_colours():

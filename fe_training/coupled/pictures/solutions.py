@@ -17,7 +17,7 @@ from fe_training.coupled.dataset import CoupledData
 from fe_training.coupled.pictures.balance import SIZE, balance_figure
 from fe_training.coupled.pictures.tip import SIZE as TIP_SIZE
 from fe_training.coupled.pictures.tip import tip_figure
-from fe_training.figure_style import TOUGHNESS, plain_log_ticks
+from fe_training.figure_style import TOUGHNESS
 from fe_training.sliding.record import SlidingOutcome
 from surrogate import contact_functions
 from surrogate.basics.figures import (
@@ -29,6 +29,7 @@ from surrogate.basics.figures import (
     legend_over,
     new_figure,
     panels,
+    plain_log_ticks,
     save_figure,
 )
 from surrogate.coupling.amplification import Amplification, load_of
@@ -239,7 +240,7 @@ def _plain_ticks(ax: Axes) -> None:
     if high < 2.0 * low:
         ax.set_yscale("linear")
     else:
-        plain_log_ticks(ax, (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
+        plain_log_ticks(ax.yaxis, (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 
 
 def laws_figure(kappa: Amplification, figure: Figure) -> None:

@@ -8,9 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.coupled.dataset import CoupledData
-from fe_training.figure_style import plain_log_ticks
 from fe_training.sliding.record import SlidingOutcome
-from surrogate.basics.figures import COLOURS, GREY, SMALL, label_axes, legend_over, panels
+from surrogate.basics.figures import (
+    COLOURS,
+    GREY,
+    SMALL,
+    label_axes,
+    legend_over,
+    panels,
+    plain_log_ticks,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -94,7 +101,7 @@ def tip_figure(data: CoupledData, figure: Figure) -> None:
     left.set(xscale="log", yscale="log")
     right.set_yscale("log")
     for ax in (left, right):
-        plain_log_ticks(ax, (1.0, 2.0, 3.0, 5.0))
+        plain_log_ticks(ax.yaxis, (1.0, 2.0, 3.0, 5.0))
         ax.tick_params(labelsize=SMALL)
     label_axes(left, r"radius of the notch [$R_w$]", r"$\xi$ at the maximum, no wear [-]")
     label_axes(right, r"$\tau_w/\mu$, no friction [-]", r"$F_{ss}/(\mu R_w g)$ [-]")
