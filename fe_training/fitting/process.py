@@ -39,7 +39,7 @@ NEAREST = 0.08
 
 #: Points that carry the prediction: added while the prior variance that they leave, relative to the
 #: whole, is above the first, and while they are fewer than the second.
-_LEFT, MOST_ACTIVE = 1e-9, 300
+_LEFT, MOST_ACTIVE = 1e-8, 240
 _RESTARTS = 2
 
 #: Where the search for the lengths of the coordinates begins.

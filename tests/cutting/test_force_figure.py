@@ -35,7 +35,9 @@ def test_line_parts_and_wires_are_the_models(model, thickness):
     shown = np.isfinite(y)
     law = "projected"
     wanted = cutting_force(Scene(685.0, 1.6, 1e-3 * x[shown], 0.1, 7750.0), model, law=law)
-    np.testing.assert_allclose(y[shown], size * wanted.total, rtol=1e-12)
+    # x in mm rounds g, and the process multiplies roundings by the sizes of its weights, some 1e5
+    rtol = 1e-10 if model == "gp" else 1e-12
+    np.testing.assert_allclose(y[shown], size * wanted.total, rtol=rtol)
     at, force = line(ax, "the wires").get_data()
     np.testing.assert_allclose(at, [0.1, 0.4])
     np.testing.assert_allclose(force, size * cutting_force(GEL, model, law=law).total, rtol=1e-12)
