@@ -11,12 +11,13 @@ from surrogate.reading.headings import (
     headings,
     is_units_row,
     meaning,
-    plain,
     split_unit,
     vocabulary,
 )
 from surrogate.reading.sheet import EMPTY, Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, TIME
+from surrogate.reading.words.phrases import record_phrase
+from surrogate.reading.words.spelling import plain
 
 __all__ = ["LEAST_ROWS", "Block", "blocks"]
 
@@ -54,6 +55,7 @@ _WORDS = vocabulary(
         "total time,time stamp,timestamp,temps,temps ecoule,tiempo,tempo,tijd,czas,tid,t,"
         "时间,時間",
     },
+    record_phrase,
 )
 _NEEDED = ("displacement", "force")
 _OVER_TIME = ("time", "force")
