@@ -59,7 +59,8 @@ _LISTS = {
     "trial": "trial run repeat rep replicate replica test measurement messung versuch wiederholung "
     "wdh essai ensayo prova meting repetition repeticion ripetizione mess lauf proef pomiar meas "
     "опыт измерение 試行 測定 시험 试验",
-    "travel": "displacement extension distance position crosshead stroke travel depth penetration "
+    "travel": "gap spalt displacement extension distance position crosshead stroke travel depth "
+    "penetration "
     "disp deformation weg traversenweg verschiebung verlangerung stauchung verformung deplacement "
     "traverse course enfoncement desplazamiento carrera corsa spostamento deslocamento curso "
     "verplaatsing slag przemieszczenie droga forskjutning перемещение ход 변위 스트로크 位移 行程 "
@@ -67,7 +68,8 @@ _LISTS = {
     "time": "time zeit temps tiempo tempo tijd czas tid время 시간 时间 時間",
     "machine": "machine maschinen axial axiale compressive compression druck kompressions normal "
     "primary actuator kolben absolute absolut relative corrected korrigiert prüf pruef "
-    "elapsed total compresion compressione kolbenweg траверсы 圧縮 試験 压缩 试验 压头",
+    "elapsed total preload vorkraft from ab "
+    "compresion compressione kolbenweg траверсы 圧縮 試験 压缩 试验 压头",
 }
 _KINDS = {plain(word): kind for kind, words in _LISTS.items() for word in words.split()}
 _WIRES = {plain(word) for word in _LISTS["wire"].split()}
