@@ -84,7 +84,7 @@ SYNONYMS = {
         "thou": "mil",
         "dyne": "dyn",
         "dynes": "dyn",
-        "mkm": "um",
+        **{"mkm": "um", "n/m2": "Pa", "kn/m2": "kPa", "n/mm2": "MPa"},
         "dyne/cm": "dyn/cm",
     },
     **{"microns": "um", "micrometer": "um", "micrometre": "um", "minutes": "min", "msec": "ms"},
