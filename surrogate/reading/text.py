@@ -14,6 +14,8 @@ LARGEST_FILE = 30_000_000
 
 LONGEST_LINE = 10_000
 _CHUNK = 100_000
+_CONTROL = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
+_FEWEST_ODD = 5
 
 _ACCENTED = ("épaisseur", "Épaisseur", "iamètre", "éplacement", "Prüf", "für", "iámetro", "Ø")
 _WORDS = {
@@ -80,6 +82,8 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
     """
     raw = _content(file)
     codec, name = (encoding, encoding) if encoding else _encoding_of(raw)
+    if not codec.lower().startswith(("utf-16", "utf-32")):
+        _refuse_binary(file, raw[:_CHUNK])
     lines = _decoded(file, raw, codec, name).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for number, line in enumerate(lines, start=1):
         if len(line) >= LONGEST_LINE:
@@ -105,6 +109,16 @@ def _content(file: str) -> bytes:
                 f"{file} cannot be read ({error.strerror}); give the path of a file."
             ) from None
     return bytes(raw)
+
+
+def _refuse_binary(file: str, start: bytes) -> None:
+    """Refuse pictures, archives and the like, whose bytes any table of letters would read."""
+    odd = len(start) - len(start.translate(None, _CONTROL))
+    if odd >= _FEWEST_ODD and odd > 0.01 * len(start):
+        raise InputError(
+            f"{file} is no text ({odd} of its first {len(start)} bytes are of no letter); export "
+            "the table as CSV, or as .xlsx with that ending."
+        )
 
 
 def _encoding_of(raw: bytes) -> tuple[str, str]:

@@ -197,3 +197,10 @@ def test_cells_of_several_units_are_refused(read):
 def test_what_may_be_the_missing_thickness_is_named(read):
     with pytest.raises(InputError, match=r"thickness_mm \(not used: column 3 \(width \(mm\)\)\)"):
         read("d (mm),F (N),width (mm)\n0.1,0.1,20\n")
+
+
+def test_a_picture_is_no_table(tmp_path):
+    file = tmp_path / "cuts.csv"
+    file.write_bytes(np.random.default_rng(1).bytes(20_000))
+    with pytest.raises(InputError, match=r"cuts\.csv is no text .* export the table as CSV"):
+        read_measurements(file)
