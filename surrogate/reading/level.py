@@ -40,7 +40,8 @@ FEWEST_CELLS = 12
 FEWEST_SAMPLES = 40
 SHORTEST = 0.2
 """Least length of a plateau, as a part of the travel under load."""
-_FEWEST_CUT_OFF = 10
+_FEWEST_CUT_OFF = 15
+"""Forces one after another; waves of few samples may stay at their crest for less."""
 LOADED = 0.1
 """Part of the largest force above which the wire is in the sample."""
 
@@ -65,7 +66,7 @@ def noise_of(force: Array) -> float:
 def cut_off(force: Array) -> NDArray[np.bool_]:
     """Return which forces stand at the end of the load cell's range; none where it is not seen.
 
-    They are the largest, again and again, to the last digit, while the others scatter by more than
+    They are the largest, one after another, to the last digit, while the others scatter by more than
     the steps in which forces are recorded.
 
     Examples
@@ -76,7 +77,8 @@ def cut_off(force: Array) -> NDArray[np.bool_]:
     """
     largest: NDArray[np.bool_] = force == np.max(force)
     others = force[~largest]
-    if np.count_nonzero(largest) < _FEWEST_CUT_OFF or others.size < FEWEST_SAMPLES // 2:
+    ends = np.flatnonzero(np.diff(np.r_[False, largest, False].astype(int)))
+    if np.max(ends[1::2] - ends[::2]) < _FEWEST_CUT_OFF or others.size < FEWEST_SAMPLES // 2:
         return np.zeros(force.shape, bool)
     steps = np.diff(np.unique(others))
     seen = steps.size > 0 and noise_of(others) > 2.0 * float(np.min(steps))
