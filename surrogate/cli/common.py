@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from textwrap import fill
 from typing import Any, TypeAlias
 
@@ -13,7 +15,8 @@ import numpy as np
 
 from surrogate.basics.figures import WIDTHS
 from surrogate.basics.picture_form import PictureForm
-from surrogate.errors import InputError
+from surrogate.basics.records import number
+from surrogate.errors import DomainError, InputError
 from surrogate.reading.units import LENGTH, NUMBER, Dimension, parse_number, parse_quantity
 
 __all__ = ["wire_rows"]
@@ -157,6 +160,59 @@ def add_extrapolate_option(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="continue a fitted model outside its domain by its asymptotes",
     )
+
+
+def add_outside_option(command: argparse.ArgumentParser) -> None:
+    """Add what becomes of wires to which a model or a law does not reach."""
+    command.add_argument(
+        "--outside",
+        choices=("error", "nan"),
+        default="error",
+        help="what becomes of wires that the model or the law does not reach: error names the "
+        "first and answers none; nan says 'unknown' for them (null with --json) and answers the "
+        "others (default error)",
+    )
+
+
+def python_outside(options: argparse.Namespace) -> str:
+    """Return `outside` as Python's functions take it.
+
+    Raises
+    ------
+    InputError
+        If the model is to be continued there as well.
+    """
+    if options.outside == "nan" and options.extrapolate:
+        raise InputError(
+            "--outside nan leaves out the wires where --extrapolate continues the model; give one "
+            "of them."
+        )
+    return "nan" if options.outside == "nan" else "raise"
+
+
+@contextmanager
+def teaching_outside() -> Iterator[None]:
+    """Say what `--outside` does where some wires of several are refused for their domain."""
+    try:
+        yield
+    except DomainError as error:
+        refused = re.search(r"\b([0-9]+) of ([0-9]+) values", str(error))
+        if refused is None or int(refused[1]) >= int(refused[2]):
+            raise
+        raise DomainError(f"{error} With --outside nan the other wires are answered.") from None
+
+
+def without_answer(record: Record, unknown: Any) -> list[str]:
+    """Say which wires are not answered."""
+    wires = [wire for wire, no in zip(record["wires"], np.atleast_1d(unknown), strict=True) if no]
+    if not wires:
+        return []
+    g = [wire["dimensionless_toughness"] for wire in wires]
+    span = number(g[0]) if min(g) == max(g) else f"{number(min(g))} to {number(max(g))}"
+    return [
+        f"no answer for {len(wires)} of {len(record['wires'])} wires (g = {span}), which model "
+        f"{record['model']} or the law does not reach; without --outside nan the reason is told"
+    ]
 
 
 def print_record(

@@ -28,11 +28,15 @@ from surrogate.cli.common import (
     add_law_option,
     add_model_option,
     add_notch_option,
+    add_outside_option,
     print_answer,
     print_record,
+    python_outside,
     quantity,
     share,
+    teaching_outside,
     wire_rows,
+    without_answer,
 )
 from surrogate.cutting.force import CuttingForce, cutting_force
 from surrogate.cutting.regimes import DOMINANT_SHARE, SPLIT_MODEL, Regime, classify
@@ -78,7 +82,7 @@ def force_record(
         relative_error=math.nan if force.relative_error is None else force.relative_error,
         law=force.laws,
         fit_error=math.nan if force.fit_error is None else force.fit_error,
-        law_error=math.nan if force.law_error is None else force.law_error,
+        law_error=math.nan if force.law_error is None else _of_known(force.law_error, force.total),
         in_domain=force.in_domain,
     )
     return {
@@ -89,6 +93,11 @@ def force_record(
         "notes": list(force.doubts),
         "warnings": doubts_of_scene(scene.values()),
     }
+
+
+def _of_known(error: FloatOrArray, force: FloatOrArray) -> Any:
+    """Return the error of forces, nan of those that are not known."""
+    return np.where(np.isnan(force), np.nan, error)
 
 
 def force_text(record: Record, diameters: bool = False) -> str:
@@ -302,6 +311,7 @@ def add_force_options(command: argparse.ArgumentParser) -> None:
     add_law_option(command, any_law=True)
     add_notch_option(command)
     add_extrapolate_option(command)
+    add_outside_option(command)
     command.add_argument(
         "--thickness",
         type=quantity(LENGTH),
@@ -336,6 +346,7 @@ def add_regime_options(command: argparse.ArgumentParser) -> None:
     add_law_option(command, any_law=True)
     add_notch_option(command)
     add_extrapolate_option(command)
+    add_outside_option(command)
 
 
 def _scene(options: argparse.Namespace) -> Scene:
@@ -379,7 +390,9 @@ def run_force(options: argparse.Namespace) -> int:
         raise InputError("the sample's thickness must be positive; give --thickness 20mm or so.")
     scene = _scene(options)
     choice = options.model, options.rtol, options.extrapolate, options.law
-    force, notes = _noting(lambda: cutting_force(scene, *choice, notch_radius=options.notch_radius))
+    outside = python_outside(options)
+    with teaching_outside():
+        force, notes = _noting(lambda: cutting_force(scene, *choice, outside, options.notch_radius))
     wide = _in_diameters(options)
     if options.plot and options.notch_radius is not None:
         raise InputError(
@@ -391,7 +404,7 @@ def run_force(options: argparse.Namespace) -> int:
 
         with pictures_as(replace(picture_form(), diameters=wide)):
             save_force(
-                scene,
+                _reached(scene, force),
                 options.plot,
                 model=options.model,
                 rtol=options.rtol,
@@ -401,10 +414,18 @@ def run_force(options: argparse.Namespace) -> int:
     any_law = options.law == AUTO and force.law_error is not None  # of closed forms it is none
     record = force_record(scene, force, options.thickness, any_law)
     record |= {"picture": options.plot, "notch_radius": options.notch_radius}
-    record["notes"] += notes
+    record["notes"] += [*notes, *without_answer(record, np.isnan(force.total))]
     return print_answer(
         options, record, lambda record: _with_picture(force_text(record, wide), record)
     )
+
+
+def _reached(scene: Scene, force: CuttingForce) -> Scene:
+    """Return the scene with the wires that have a force, for its picture."""
+    known = ~np.isnan(np.atleast_1d(force.total))
+    if not known.any():
+        raise InputError("no wire has a force to draw; leave out --plot, or --outside nan.")
+    return replace(scene, wire_radius=np.atleast_1d(scene.wire_radius)[known])
 
 
 def _with_picture(text: str, record: Record) -> str:
@@ -414,9 +435,11 @@ def _with_picture(text: str, record: Record) -> str:
 def run_regime(options: argparse.Namespace) -> int:
     scene = _scene(options)
     choice = options.model, options.rtol, options.extrapolate, options.law, options.notch_radius
-    regime, notes = _noting(lambda: classify(scene, options.threshold, *choice))
+    outside = python_outside(options)
+    with teaching_outside():
+        regime, notes = _noting(lambda: classify(scene, options.threshold, *choice, outside))
     record = regime_record(scene, regime, options.model)
-    record["notes"] += notes
+    record["notes"] += [*notes, *without_answer(record, np.asarray(regime.dominant) == UNKNOWN)]
     wide = _in_diameters(options)
     return print_answer(options, record, lambda record: regime_text(record, wide))
 

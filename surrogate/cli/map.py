@@ -229,7 +229,9 @@ def map_record(options: argparse.Namespace) -> dict[str, Any]:
     files = [f for f in (options.out, options.csv, options.boundaries_csv) if f]
     read = [note for gel in own for note in gel.notes]
     doubted = [f"{gel.file}: {doubt}" for gel in own for doubt in gel.fit.warnings]
-    return {**map_summary(made), "files": files, "warnings": list(made.warnings)} | {
+    summary = map_summary(made)
+    doubts = [*[_NOWHERE] * (summary["in_domain"] == 0.0), *made.warnings]
+    return {**summary, "files": files, "warnings": doubts} | {
         "notes": [
             *read,
             *doubted,
@@ -282,7 +284,7 @@ def map_text(made: dict[str, Any]) -> str:
         head,
         table(("dominant term", "of the map"), shares),
         _laws(made),
-        f"The model holds on {100.0 * made['in_domain']:.1f} % of the map.",
+        _reach(made["in_domain"]),
         table(("boundary", "equation", "from", "start (x, y)", "end (x, y)"), rows),
     ]
     parts.insert(1, points_text(made["points"], x, y, made["diameters"]))
@@ -290,6 +292,18 @@ def map_text(made: dict[str, Any]) -> str:
     if made["files"]:
         parts.append(f"Written: {', '.join(made['files'])}")
     return "\n\n".join(part for part in parts if part)
+
+
+def _reach(share: float) -> str:
+    """Say on how much of a map the model holds, and what the rest shows."""
+    text = f"The model holds on {100.0 * share:.1f} % of the map"
+    more = "; elsewhere it is continued (hatched in the picture), and the shares are of both."
+    return fill(text + (more if share < 1.0 else "."), 96)
+
+
+_NOWHERE = """\
+the model under this law holds nowhere on the map, whose regimes are those of a continuation; \
+change the ranges, --law or --model"""
 
 
 def _laws(made: dict[str, Any]) -> str:

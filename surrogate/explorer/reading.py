@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from surrogate.reading.forms.remarks import SUMMARY
 from surrogate.reading.headings import AVERAGE
 from surrogate.reading.sheet import EMPTY
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, SYNONYMS, Dimension
-from surrogate.reading.wire_table import COUNT, DEVIATION, SUMMARY, WORDS
+from surrogate.reading.words.wire_words import COUNT, DEVIATION, WORDS
 
 __all__ = ["reading"]
 
@@ -38,7 +39,7 @@ def reading() -> dict[str, Any]:
 def _words() -> list[dict[str, Any]]:
     """Return the names of columns, those together that mean the same."""
     names: dict[tuple[tuple[str, str], ...], list[str]] = {}
-    for name, meanings in WORDS.items():
+    for name, meanings in WORDS.names.items():
         names.setdefault(_told(meanings), []).append(name)
     return [{"means": means, "names": listed} for means, listed in names.items()]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from textwrap import wrap
+from typing import Any
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from surrogate.choosing.laws import COUPLED, PROJECTED, SLIP
 from surrogate.identification.doubts import fit_warnings, objections
 from surrogate.identification.estimate import Estimate
 from surrogate.identification.friction import forgotten_friction_in_words
+from surrogate.identification.further_wire import forces_of
 from surrogate.identification.open_questions import undecided
-from surrogate.inference.inputs import DEFAULT_STIFFENING
+from surrogate.inference.inputs import DEFAULT_STIFFENING, NOTHING_KNOWN
 
 __all__ = [
     "MOST_LINES",
@@ -25,6 +27,7 @@ __all__ = [
     "assumptions",
     "brief",
     "budget",
+    "errors_of_wires",
     "is_answer",
     "law_in_words",
     "quantity_ranges",
@@ -197,7 +200,81 @@ def budget(fit: Estimate) -> str:
     ]
     if not parts or fit.at_limit or not fit.has_scatter:
         return ""
-    return f"Standard errors come from: {'; '.join(parts)}."
+    return f"Standard errors come from: {'; '.join(parts)}.{_wires_apart(fit)}"
+
+
+def errors_of_wires(fit: Estimate, share: float) -> tuple[float, float]:
+    """Return standard errors of Gamma_o [J/m2] and tau_w [Pa] if wires are not as thick as told.
+
+    Parameters
+    ----------
+    fit : Estimate
+        An identification.
+    share : float
+        Standard error of each wire's radius over it [-], one for all of its cuts.
+
+    Returns
+    -------
+    (float, float)
+        To first order, nan where the force has no derivative.
+
+    Examples
+    --------
+    >>> from surrogate.identification.fit import identify
+    >>> fit = identify([1e-4, 4e-4], [4.7, 13.9], 685.0, model="eq13", force_std=[0.1, 0.3])
+    >>> [round(error, 3) for error in errors_of_wires(fit, 0.02)]
+    [0.116, 210.737]
+    """
+    gamma, tau = np.array([fit.toughness]), np.array([fit.wear_strength])
+    radius, weight, model = fit.wire_radius, fit.cuts.weight, fit.tangent
+
+    def of(gamma: Any, tau: Any, radius: Any) -> Any:
+        return forces_of(model, fit.cuts, gamma, tau, radius)[0]
+
+    def slope(step: float, other: Any) -> Any:
+        return (other(1.0 + step) - other(1.0 - step)) / (2.0 * step)
+
+    design = np.stack(
+        [
+            slope(_STEP, lambda by: of(by * gamma, tau, radius)) / gamma,
+            slope(_STEP, lambda by: of(gamma, by * tau, radius)) / tau,
+        ],
+        axis=1,
+    )
+    along = slope(_STEP, lambda by: of(gamma, tau, by * radius))
+    wires = np.stack([along * (radius == one) for one in np.unique(radius)], axis=1)
+    columns = design * weight[:, np.newaxis]
+    if not (np.isfinite(columns).all() and np.isfinite(wires).all()):
+        return math.nan, math.nan
+    moved = np.linalg.lstsq(columns, wires * weight[:, np.newaxis], rcond=None)[0]
+    of_gamma, of_tau = share * np.linalg.norm(moved, axis=1)
+    return float(of_gamma), float(of_tau)
+
+
+def _wires_apart(fit: Estimate) -> str:
+    """Say what the wires' own errors would add, where that is not little beside the rest.
+
+    Where the scatter is that of one cut with each wire it has them in it.
+    """
+    if fit.known != NOTHING_KNOWN or min(fit.toughness, fit.wear_strength) <= 0.0:
+        return ""
+    if fit.force_std is None and fit.scatter is None:
+        return ""
+    errors = errors_of_wires(fit, _OF_WIRES)
+    stds = np.sqrt(np.diag(fit.covariance))
+    if not np.any(np.asarray(errors) > 0.5 * stds):
+        return ""
+    gamma, tau = errors
+    return (
+        f" Radii are taken as exact: if each wire's had a standard error of {100 * _OF_WIRES:g} %, "
+        f"that would bring {number(gamma, 2)} J/m2 and {number(1e-3 * tau, 2)} kPa besides"
+        f"{', however often you cut with it' if fit.scatter else ''}."
+    )
+
+
+_STEP = 1e-4
+_OF_WIRES = 0.02
+"""Standard error of a wire's radius that is usual [-]: 2 um of a wire 0.1 mm across."""
 
 
 def against_use(sentences: Iterable[str]) -> list[str]:

@@ -7,14 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from surrogate.errors import InputError
 from surrogate.reading.headings import (
+    Vocabulary,
     bare,
     is_units_row,
-    plain,
     split_bracketed,
     split_unit,
 )
 from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.units import LENGTH, SPEED, Dimension
+from surrogate.reading.words.spelling import plain
 
 __all__ = ["Stated", "speed_before", "thickness_before", "thicknesses_by_specimen"]
 
@@ -98,7 +99,7 @@ def _column(
     sheet: Sheet, header: Row, column: int, units: Row | None, rows: Sequence[Row]
 ) -> dict[int, Stated]:
     name = header.cells[column]
-    text = (split_bracketed(name) or split_unit(name, {}))[1]
+    text = (split_bracketed(name) or split_unit(name, Vocabulary()))[1]
     if not text and units:
         text = bare("".join(units.cells[column : column + 1]))
     listed: dict[int, Stated] = {}

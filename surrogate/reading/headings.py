@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from surrogate.errors import InputError
 from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, TIME, Dimension, Unit
+from surrogate.reading.words.phrases import Phrase
+from surrogate.reading.words.spelling import plain
 
 __all__ = [
     "AVERAGE",
@@ -19,13 +21,12 @@ __all__ = [
     "headings",
     "is_units_row",
     "meaning",
-    "plain",
     "split_bracketed",
     "split_unit",
     "vocabulary",
 ]
 
-Vocabulary = Mapping[str, Sequence[tuple[str, Dimension]]]
+Meanings = Sequence[tuple[str, Dimension]]
 """What a name may mean, and the dimension that its unit must then have; the likeliest first."""
 
 _BRACKETED = re.compile(r"(.*?)[\s_]*[\[({<]\s*([^\[\](){}<>]*?)\s*[\])}>]", re.DOTALL)
@@ -51,10 +52,37 @@ class Heading(NamedTuple):
         return f"column {self.number} ({self.name})"
 
 
+def _nothing(_: str) -> Phrase:
+    """Say that no name means anything."""
+    return Phrase()
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """What names mean: those of a list, and what is put together of known words.
+
+    Parameters
+    ----------
+    names : mapping of str to sequence of (str, Dimension)
+        Meanings of whole names, as `plain` writes them. One that ends with n means something with
+        a number only.
+    meanings : mapping of str to sequence of (str, Dimension)
+        What a quantity is by the dimension of its unit.
+    phrase : callable
+        Returns the quantity of any other name.
+    """
+
+    names: Mapping[str, Meanings] = field(default_factory=dict)
+    meanings: Mapping[str, Meanings] = field(default_factory=dict)
+    phrase: Callable[[str], Phrase] = _nothing
+
+
 def vocabulary(
-    meanings: Mapping[str, Sequence[tuple[str, Dimension]]], names: Mapping[str, str]
+    meanings: Mapping[str, Meanings],
+    names: Mapping[str, str],
+    phrase: Callable[[str], Phrase],
 ) -> Vocabulary:
-    """Return what each of many names means.
+    """Return what names mean.
 
     Parameters
     ----------
@@ -62,25 +90,15 @@ def vocabulary(
         What a quantity is by the dimension of its unit.
     names : mapping of str to str
         Names of each quantity, separated by commas.
+    phrase : callable
+        Returns the quantity of any other name.
     """
-    return {
+    whole = {
         plain(name): meanings[quantity]
         for quantity, listed in names.items()
         for name in listed.split(",")
     }
-
-
-def plain(name: str) -> str:
-    """Return a name in small letters without accents, its marks as blanks.
-
-    Examples
-    --------
-    >>> plain(" Prüf-Kraft_F_ss/T: ")
-    'pruf kraft f ss/t'
-    """
-    letters = unicodedata.normalize("NFKD", name)
-    letters = "".join(one for one in letters if not unicodedata.combining(one)).casefold()
-    return " ".join(re.sub(r"[_\-.:;,\s#|]+", " ", letters).split()).replace(" / ", "/")
+    return Vocabulary(whole, meanings, phrase)
 
 
 def headings(
@@ -154,13 +172,13 @@ def split_unit(name: str, words: Vocabulary) -> tuple[str, str | None]:
     name = name.strip(" :")
     bracketed = split_bracketed(name)
     if bracketed:
-        return bracketed
+        return bracketed[0].rstrip(" /"), bracketed[1]
     inside = _INSIDE.fullmatch(name)
     if inside and meaning(behind := f"{inside[1]} {inside[3]}", words)[0]:
         return behind, inside[2]
     if meaning(name, words)[0]:
         return name, None
-    for mark in reversed(list(re.finditer(r"[_\s,/]+(?:in\s+)?", name))):
+    for mark in reversed(list(re.finditer(r"[_\s,/:]+(?:in\s+)?", name))):
         left, right = name[: mark.start()], name[mark.end() :]
         meanings = meaning(left, words)[0]
         if meanings and right:
@@ -171,21 +189,19 @@ def split_unit(name: str, words: Vocabulary) -> tuple[str, str | None]:
     return name, None
 
 
-def meaning(name: str, words: Vocabulary) -> tuple[Sequence[tuple[str, Dimension]], bool]:
-    """Return what a name means, and whether it is one of several trials by its number.
-
-    A word of the vocabulary that ends with n means something with a number only.
-    """
+def meaning(name: str, words: Vocabulary) -> tuple[Meanings, bool]:
+    """Return what a name means, and whether it is one of several trials by its number."""
     key = plain(name)
     for known in (key, AVERAGE.sub("", key)):
-        if known in words:
-            return words[known], False
+        if known in words.names:
+            return words.names[known], False
     counted = re.fullmatch(r"(.*?) ?[0-9]{1,3}", key)
     base = counted[1] if counted else ""
-    for name in (base, f"{base} n"):
-        if base and name in words:
-            return words[name], True
-    return (), False
+    for one in (base, f"{base} n"):
+        if base and one in words.names:
+            return words.names[one], True
+    quantity, trial = words.phrase(key)
+    return words.meanings.get(quantity, ()), trial
 
 
 def bare(cell: str) -> str:

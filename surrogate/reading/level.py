@@ -21,7 +21,17 @@ from numpy.typing import NDArray
 
 from surrogate.errors import InputError
 
-__all__ = ["Cells", "Contact", "cells_of", "contact_of", "level_stretch", "noise_of"]
+__all__ = [
+    "Cells",
+    "Contact",
+    "cells_of",
+    "contact_of",
+    "cut_off",
+    "far_off",
+    "level_stretch",
+    "lone_forces",
+    "noise_of",
+]
 
 Array = NDArray[np.float64]
 
@@ -30,6 +40,8 @@ FEWEST_CELLS = 12
 FEWEST_SAMPLES = 40
 SHORTEST = 0.2
 """Least length of a plateau, as a part of the travel under load."""
+_FEWEST_CUT_OFF = 15
+"""Forces one after another; waves of few samples may stay at their crest for less."""
 LOADED = 0.1
 """Part of the largest force above which the wire is in the sample."""
 
@@ -49,6 +61,58 @@ def noise_of(force: Array) -> float:
     # Of a force in coarse steps most differences are 0, and the median says nothing.
     spread = median / 0.6745 if median > 0.0 else float(np.sqrt(np.mean(second**2)))
     return float(spread / np.sqrt(6.0))
+
+
+def cut_off(force: Array) -> NDArray[np.bool_]:
+    """Return which forces stand at the end of the load cell's range; none where it is not seen.
+
+    They are the largest, one after another, to the last digit, while the others scatter by more than
+    the steps in which forces are recorded.
+
+    Examples
+    --------
+    >>> load = np.linspace(0.0, 1.0, 100) + 0.01 * np.random.default_rng(1).normal(size=100)
+    >>> int(cut_off(load).sum()), int(cut_off(np.minimum(load, 0.5)).sum())
+    (0, 51)
+    """
+    largest: NDArray[np.bool_] = force == np.max(force)
+    others = force[~largest]
+    ends = np.flatnonzero(np.diff(np.r_[False, largest, False].astype(int)))
+    if np.max(ends[1::2] - ends[::2]) < _FEWEST_CUT_OFF or others.size < FEWEST_SAMPLES // 2:
+        return np.zeros(force.shape, bool)
+    steps = np.diff(np.unique(others))
+    seen = steps.size > 0 and noise_of(others) > 2.0 * float(np.min(steps))
+    return largest if seen else np.zeros(force.shape, bool)
+
+
+def far_off(force: Array) -> NDArray[np.bool_]:
+    """Return which forces of a level stretch are far from all the others, one in twenty at most.
+
+    Examples
+    --------
+    >>> np.flatnonzero(far_off(np.r_[np.tile([1.0, 1.1], 30), 9.0])).tolist()
+    [60]
+    """
+    middle = float(np.median(force))
+    apart = np.abs(force - middle)
+    scatter = float(np.median(apart)) / 0.6745
+    far: NDArray[np.bool_] = apart > max(10.0 * scatter, 0.5 * abs(middle))
+    return far if np.count_nonzero(far) <= 0.05 * force.size else np.zeros(force.shape, bool)
+
+
+def lone_forces(force: Array, least: float = 0.5) -> NDArray[np.bool_]:
+    """Return which forces leave those before and after them by a multiple of what is usual.
+
+    Examples
+    --------
+    >>> np.flatnonzero(lone_forces(np.r_[np.ones(30), 9.0, np.ones(30)])).tolist()
+    [30]
+    """
+    windows = np.lib.stride_tricks.sliding_window_view(np.pad(force, 2, "edge"), 5)
+    near = np.median(windows, axis=1)
+    usual = float(np.percentile(np.abs(near), 95.0))
+    lone: NDArray[np.bool_] = np.abs(force - near) > max(40.0 * noise_of(near), least * usual)
+    return lone
 
 
 @dataclass(frozen=True)

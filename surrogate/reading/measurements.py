@@ -15,7 +15,8 @@ from surrogate.reading import plausibility
 from surrogate.reading.headings import Heading
 from surrogate.reading.plausibility import doubts
 from surrogate.reading.sheet import EMPTY, Row, Sheet, read_sheets
-from surrogate.reading.wire_table import COLUMNS, Table, find_table, has_table
+from surrogate.reading.wire_table import Table, find_table, has_table
+from surrogate.reading.words.wire_words import COLUMNS
 
 __all__ = ["COLUMNS", "Measurements", "read_measurements"]
 
@@ -295,7 +296,7 @@ class _Reader:
             raise InputError(
                 f"{self.sheet.place(row)}, {one} is a force, and the sample's thickness is "
                 "missing; give it with --thickness 20mm (thickness= in Python), or in a column "
-                "thickness_mm."
+                f"thickness_mm{self._unused()}."
             )
         if stated is not None and self.option is not None and stated != self.option:
             raise InputError(
@@ -304,6 +305,12 @@ class _Reader:
                 "one of them."
             )
         return stated if stated is not None else self.option or np.nan
+
+    def _unused(self) -> str:
+        """Return the columns that are not used: one of them may be what is missing."""
+        names = [note.partition("not used: ")[2] for note in self.table.notes]
+        names = [name for name in names if name]
+        return f" (not used: {', '.join(names)})" if names else ""
 
     def _compare(self, row: Row, force: float) -> None:
         """Refuse a force over its thickness that is not the force per thickness beside it."""

@@ -20,7 +20,10 @@ from surrogate.reading.level import (
     Contact,
     cells_of,
     contact_of,
+    cut_off,
+    far_off,
     level_stretch,
+    lone_forces,
     noise_of,
 )
 
@@ -40,6 +43,13 @@ _TOLERANCE = Quantity("tolerance", "", "give a small fraction such as 0.05", SMA
 
 _FEWEST_INDEPENDENT = 5.0
 _FEWEST_IN_RANGE = 10
+_FAR_BEYOND = 5.0
+"""Multiple of the usual force beyond which a single one is no peak."""
+_FEWEST_FREE = 20
+_MOST_CUT_OFF = 0.1
+"""Part of a plateau that may stand at the end of the load cell's range."""
+_MOVED = 0.01
+"""By which part of it a few forces may move the mean of the others."""
 _REMEDY = "; or choose the range yourself (--from and --to, start= and end= in Python)"
 
 
@@ -153,6 +163,7 @@ def steady_force(
     first, last = _ends(start, end)
     constant = one_number(_TARE, tare)
     part = one_number(_TOLERANCE, tolerance)
+    _refuse_lone(travel, load)
     contact = contact_of(load)
     net = load - (contact.offset + constant)
     if first is None or last is None:
@@ -167,6 +178,8 @@ def steady_force(
             f"{1e3 * travel[-1]:.4g} mm; choose a range with {_FEWEST_IN_RANGE} or more "
             "(a number without its unit is in metres)."
         )
+    _refuse_cut_off(load, inside)
+    _refuse_far_off(travel[inside], net[inside])
     return _summary(travel, net, inside, (first, last), contact, constant, part)
 
 
@@ -213,7 +226,50 @@ def _plateau(travel: Array, net: Array, contact: Contact, tolerance: float) -> t
     try:
         return level_stretch(cells_of(after, force), tolerance)
     except InputError as error:
-        raise InputError(f"no steady force: {error}{_REMEDY}.") from None
+        raise InputError(f"no steady force: {error}{_lone(after, force)}{_REMEDY}.") from None
+
+
+def _refuse_cut_off(load: Array, inside: NDArray[np.bool_]) -> None:
+    """Refuse a plateau that is the end of the load cell's range."""
+    part = float(np.mean(cut_off(load)[inside]))
+    if part > _MOST_CUT_OFF:
+        raise InputError(
+            f"no steady force: {100.0 * part:.0f} % of the forces along the plateau are the "
+            f"largest of the record, {float(np.max(load)):g} N, to the last digit, while others "
+            "scatter: the load cell or its range is at its end; cut again with a larger one."
+        )
+
+
+def _refuse_far_off(travel: Array, net: Array) -> None:
+    """Refuse a mean that a few forces move, which are none of the wire."""
+    far = far_off(net)
+    middle = float(np.median(net))
+    if far.any() and abs(float(np.mean(net)) - middle) > _MOVED * abs(middle):
+        raise InputError(f"no steady force: {_these(travel, net, far, middle)}.")
+
+
+def _refuse_lone(travel: Array, load: Array) -> None:
+    """Refuse single forces so large that contact and load would be told by them."""
+    centred = load - float(np.median(load[: max(5, load.size // 100)]))
+    lone = lone_forces(centred, _FAR_BEYOND)
+    if lone.any():
+        raise InputError(f"no steady force: {_these(travel, load, lone, float(np.median(load)))}.")
+
+
+def _lone(travel: Array, net: Array) -> str:
+    lone = lone_forces(net)
+    if not 0 < np.count_nonzero(lone) <= 0.02 * net.size:
+        return ""
+    return f"; {_these(travel, net, lone, float(np.median(net)))}"
+
+
+def _these(travel: Array, net: Array, which: NDArray[np.bool_], middle: float) -> str:
+    first = int(np.argmax(which))
+    return (
+        f"{np.count_nonzero(which)} of {net.size} forces are far off the others (first "
+        f"{net[first]:.4g} N at {1e3 * travel[first]:.4g} mm beside {middle:.4g} N); delete their "
+        "lines if they are none of the wire"
+    )
 
 
 def _refuse_without_contact(travel: Array, net: Array, contact: Contact, tolerance: float) -> None:
@@ -255,7 +311,11 @@ def _summary(
         stick_slip=stick_slip(f, noise_of(f)),
         offset=contact.offset,
         tare=tare,
-        warnings=tuple(_warnings(mean, drift, tolerance, f.size / correlated, contact)),
+        warnings=(
+            *_warnings(mean, drift, tolerance, f.size / correlated, contact),
+            *_peak_cut_off(net),
+            *_zero_drift(travel, net, contact, float(np.mean(x)), mean),
+        ),
     )
 
 
@@ -283,6 +343,36 @@ def _warnings(
     if contact.offset_error == contact.offset == 0.0:
         said.append("the record begins in contact: no offset of the load cell is subtracted")
     return said
+
+
+def _zero_drift(
+    travel: Array, net: Array, contact: Contact, place: float, mean: float
+) -> list[str]:
+    """Doubt an offset that changes before contact, by what that would be up to the plateau."""
+    free = slice(0, contact.index // 2)  # its second half may be the beginning of contact
+    x, f = travel[free], net[free]
+    if f.size < _FEWEST_FREE or not x[-1] > x[0] or mean <= 0.0:
+        return []
+    slope, level = np.polyfit(x - np.mean(x), f, 1)
+    scatter = float(np.std(f - level - slope * (x - np.mean(x))))
+    error = scatter / float(np.std(x) * np.sqrt(f.size))
+    moved = float(slope) * (place - float(np.mean(x)))
+    if abs(slope) <= 5.0 * error or abs(moved) <= 2.0 * _MOVED * mean:
+        return []
+    return [
+        f"the force before contact changes by {1e-3 * slope:+.2g} N/mm: if the load cell goes on "
+        f"so, the force is off by {100.0 * moved / mean:+.2g} %"
+    ]
+
+
+def _peak_cut_off(net: Array) -> list[str]:
+    number = np.count_nonzero(cut_off(net))
+    if not number:
+        return []
+    return [
+        f"{number} forces are the largest of the record to the last digit: the peak is cut off by "
+        "the range of the load cell"
+    ]
 
 
 def autocorrelation_time(values: Array) -> float:

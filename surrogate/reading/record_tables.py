@@ -5,18 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from surrogate.errors import InputError
 from surrogate.reading.headings import (
     Heading,
     headings,
     is_units_row,
     meaning,
-    plain,
     split_unit,
     vocabulary,
 )
 from surrogate.reading.sheet import EMPTY, Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, TIME
+from surrogate.reading.words.phrases import record_phrase
+from surrogate.reading.words.spelling import plain
 
 __all__ = ["LEAST_ROWS", "Block", "blocks"]
 
@@ -54,10 +58,13 @@ _WORDS = vocabulary(
         "total time,time stamp,timestamp,temps,temps ecoule,tiempo,tempo,tijd,czas,tid,t,"
         "时间,時間",
     },
+    record_phrase,
 )
 _NEEDED = ("displacement", "force")
 _OVER_TIME = ("time", "force")
 LEAST_ROWS = 2
+_SAME = 1e-3
+"""Part of their range by which two channels of one quantity may differ."""
 
 
 class Block(NamedTuple):
@@ -102,7 +109,8 @@ def _tables(sheet: Sheet, needed: Sequence[str]) -> Iterator[Block]:
         if end - first >= LEAST_ROWS:
             _check_end(sheet, rows, end, row)
             listed = headings(sheet, row, _WORDS, units, optional)
-            yield Block(rows[start:index], _sides(sheet, row, listed, needed), rows[first:end])
+            sides = _sides(sheet, row, listed, needed, rows[first:end])
+            yield Block(rows[start:index], sides, rows[first:end])
             start = end
         index = max(end, index + 1)
 
@@ -123,7 +131,7 @@ def _named_by_caller(sheet: Sheet, columns: str) -> Block:
             f"{sheet.file} has no rows of {len(names.cells)} numbers; name all its columns."
         )
     before = sheet.rows[: sheet.rows.index(data[0])]
-    return Block(before, _sides(sheet, names, listed, needed), data)
+    return Block(before, _sides(sheet, names, listed, needed, data), data)
 
 
 def _is_header(row: Row, needed: Sequence[str]) -> bool:
@@ -155,7 +163,7 @@ def _check_end(sheet: Sheet, rows: list[Row], end: int, header: Row) -> None:
 
 
 def _sides(
-    sheet: Sheet, header: Row, listed: list[Heading], needed: Sequence[str]
+    sheet: Sheet, header: Row, listed: list[Heading], needed: Sequence[str], rows: Sequence[Row]
 ) -> list[list[Heading]]:
     """Return the columns of each specimen in a table: a name that comes again begins the next."""
     known = [one for one in listed if one.quantity]
@@ -165,6 +173,7 @@ def _sides(
         sides = [known[i:j] for i, j in zip(repeats, [*repeats[1:], len(known)], strict=True)]
     else:
         sides = _numbered(known, needed)
+    sides = [_told_once(sheet, side, rows) for side in sides]
     for side in sides:
         _check_side(sheet, header, side, needed)
     return sides
@@ -181,6 +190,38 @@ def _numbered(known: list[Heading], needed: Sequence[str]) -> list[list[Heading]
     ):
         return [known]
     return list(groups.values())
+
+
+def _told_once(sheet: Sheet, side: list[Heading], rows: Sequence[Row]) -> list[Heading]:
+    """Return the columns without those that tell the same course as one before them."""
+    kept: list[Heading] = []
+    courses: dict[str, list[NDArray[np.float64]]] = {}
+    for one in side:
+        earlier = courses.setdefault(one.quantity, [])
+        alone = sum(1 for other in side if other.quantity == one.quantity) == 1
+        course = None if alone else _course(sheet, one, rows)
+        if course is not None:
+            if any(_agree(course, other) for other in earlier):
+                continue
+            earlier.append(course)
+        kept.append(one)
+    return kept
+
+
+def _course(sheet: Sheet, one: Heading, rows: Sequence[Row]) -> NDArray[np.float64] | None:
+    """Return a column from its first number on; None where it holds anything else."""
+    assert one.unit is not None
+    cells = [row.cells[one.number - 1] if len(row.cells) >= one.number else "" for row in rows]
+    values = [sheet.number(cell, one.unit) for cell in cells]
+    numbers = np.array([np.nan if value is None else value for value in values])
+    return numbers - numbers[0] if np.isfinite(numbers).all() else None
+
+
+def _agree(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
+    """Whether two courses differ by a small part of their range, whichever way they count."""
+    range_ = max(float(np.ptp(one)), float(np.ptp(other)))
+    apart = min(float(np.max(np.abs(one - sign * other))) for sign in (1.0, -1.0))
+    return range_ > 0.0 and apart <= _SAME * range_
 
 
 def _check_side(sheet: Sheet, header: Row, side: list[Heading], needed: Sequence[str]) -> None:

@@ -17,6 +17,7 @@ from surrogate.basics.checks import text as checked_text
 from surrogate.basics.extras import require_extra
 from surrogate.basics.files import file_name
 from surrogate.errors import InputError
+from surrogate.reading.forms.lines import aligned_names, is_rule, joined, narrow
 from surrogate.reading.text import read_lines
 from surrogate.reading.units import SI, Unit, parse_number
 
@@ -28,7 +29,7 @@ _WITH_UNIT = re.compile(
     rf"({_NUMBERISH.pattern})(?:\s*(?:\u00b1|\+/?-)\s*{_NUMBERISH.pattern})?(?:\s*[^\W\d]\S{{0,7}})?"
 )
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}(?P<mark>[.,])[0-9]{3}(?:(?P=mark)[0-9]{3})*")
-_APART = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:['\u2019 ][0-9]{3})+(?![0-9])")
+_APART = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:['\u2019 \xa0\u2009\u202f][0-9]{3})+(?![0-9])")
 """Thousands with an apostrophe or a blank between them."""
 _COMMENT = re.compile(r'\s*"*#(?!"?\s*[,;\t])')
 _SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
@@ -166,7 +167,7 @@ def _cell(value: Any) -> str:
     if value is None or value != value:
         return ""
     if isinstance(value, str):
-        return value.strip()
+        return " ".join(narrow(value).split())
     return repr(float(value)) if hasattr(value, "__float__") else str(value)
 
 
@@ -223,14 +224,18 @@ def _text_sheet(
     lines, name = read_lines(file, encoding)
     numbered = [
         (number, text)
-        for number, line in enumerate(lines, start=1)
-        if (text := line.strip(" \r\v\f")).strip() and not _COMMENT.match(text)
+        for number, line in joined(lines)
+        if (text := narrow(line).strip(" \r\v\f")).strip()
+        and not _COMMENT.match(text)
+        and not is_rule(text)
     ]
     if numbered and (stated := _SEPARATOR.fullmatch(numbered[0][1])):
         delimiter = delimiter or stated[1]
         numbered = numbered[1:]
     mark = delimiter or _delimiter_of([text for _, text in numbered])
     rows = [Row(number, _split(text, mark)) for number, text in numbered]
+    if mark == " ":
+        rows = _with_aligned_names(numbered, rows)
     sign = decimal or _decimal_of(file, rows, mark)
     form = f"{name}, {_DELIMITERS[mark]}s, decimal {'point' if sign == '.' else 'comma'}"
     return Sheet(file, rows, sign, form)
@@ -252,6 +257,22 @@ def _split(text: str, delimiter: str) -> list[str]:
     except (csv.Error, ValueError):
         cells = text.split(delimiter)
     return [cell.strip().strip('"').strip() for cell in cells]
+
+
+def _with_aligned_names(numbered: list[tuple[int, str]], rows: list[Row]) -> list[Row]:
+    """Return rows between blanks, whose names may hold blanks where the numbers do not."""
+    columns = {len(row.cells) for row in rows if all(map(_is_numberish, row.cells))}
+    if len(columns) != 1:
+        return rows
+    (number,) = columns
+    return [
+        Row(row.line, names)
+        if len(row.cells) > number
+        and not _numbers(row.cells)
+        and (names := aligned_names(text, number))
+        else row
+        for row, (_, text) in zip(rows, numbered, strict=True)
+    ]
 
 
 def _delimiter_of(lines: list[str]) -> str:
@@ -315,7 +336,7 @@ def _decimal_of(file: str, rows: list[Row], delimiter: str) -> str:
 
 def _sign_of(cell: str) -> str:
     """Return a number's decimal sign, that sign and ? where it may mark thousands, or nothing."""
-    match = _WITH_UNIT.fullmatch(cell)
+    match = _WITH_UNIT.fullmatch(_ungrouped(cell))
     if match is None:
         return ""
     cell = match[1]
@@ -329,11 +350,15 @@ def _sign_of(cell: str) -> str:
     return marks[0] + "?" if _GROUPED.fullmatch(cell) else marks[0]
 
 
+def _ungrouped(cell: str) -> str:
+    """Return a number without apostrophes or blanks between its thousands."""
+    match = _APART.match(cell)
+    return re.sub(r"['\u2019\s]", "", match[0]) + cell[match.end() :] if match else cell
+
+
 def _pointed(cell: str, decimal: str) -> str:
     """Return a number with a decimal point and no marks of thousands."""
-    cell = cell.replace("\u2212", "-").replace("\u202f", "").replace("\xa0", "")
-    if _APART.match(cell):
-        cell = re.sub("['\u2019 ]", "", cell)
+    cell = _ungrouped(cell.replace("\u2212", "-"))
     other = "," if decimal == "." else "."
     if other in cell:
         whole = cell.partition(decimal)[0]

@@ -14,11 +14,37 @@ LARGEST_FILE = 30_000_000
 
 LONGEST_LINE = 10_000
 _CHUNK = 100_000
+_CONTROL = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
+_FEWEST_ODD = 5
 
+_ACCENTED = ("épaisseur", "Épaisseur", "iamètre", "éplacement", "Prüf", "für", "iámetro", "Ø")
 _WORDS = {
     ("cp932", "Shift-JIS"): ("試験力", "荷重", "変位", "ストローク", "線径", "厚さ"),
     ("gb18030", "GB18030"): ("位移", "时间", "载荷", "负荷", "线径", "直径", "厚度"),
+    ("euc_jp", "EUC-JP"): ("試験力", "荷重", "変位", "ストローク", "線径", "厚さ"),
+    ("cp949", "CP949"): ("직경", "지름", "하중", "변위", "두께", "시간"),
     ("cp1250", "CP1250"): ("siła", "Siła", "średnica", "Średnica", "grubość", "Grubość"),
+    ("cp1251", "CP1251"): ("иаметр", "олщина", "Сила", "сила", "силие", "агрузка", "еремещение"),
+    ("mac_roman", "Mac Roman"): (
+        "épaisseur",
+        "Épaisseur",
+        "iamètre",
+        "éplacement",
+        "Prüf",
+        "für",
+        "iámetro",
+        "Ø",
+    ),
+    ("cp850", "CP850"): (
+        "épaisseur",
+        "Épaisseur",
+        "iamètre",
+        "éplacement",
+        "Prüf",
+        "für",
+        "iámetro",
+        "Ø",
+    ),
 }
 """Encodings that are told from CP1252 by a word that a table has in them."""
 
@@ -38,9 +64,9 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
         Its name.
     encoding : str, optional
         Name of its encoding. By default a byte-order mark tells it, then the zeros that UTF-16
-        has in every second place; then it is UTF-8 where the bytes are; then Shift-JIS, GB18030 or
-        CP1250 where a word of a table shows it, and else CP1252, which differs from Latin-1 in no
-        letter.
+        has in every second place; then it is UTF-8 where the bytes are; then another, such as
+        Shift-JIS, GB18030, CP1251 or Mac Roman, where a word of a table shows it, and else CP1252,
+        which differs from Latin-1 in no letter.
 
     Returns
     -------
@@ -56,6 +82,8 @@ def read_lines(file: str, encoding: str | None = None) -> tuple[list[str], str]:
     """
     raw = _content(file)
     codec, name = (encoding, encoding) if encoding else _encoding_of(raw)
+    if not codec.lower().startswith(("utf-16", "utf-32")):
+        _refuse_binary(file, raw[:_CHUNK])
     lines = _decoded(file, raw, codec, name).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for number, line in enumerate(lines, start=1):
         if len(line) >= LONGEST_LINE:
@@ -81,6 +109,16 @@ def _content(file: str) -> bytes:
                 f"{file} cannot be read ({error.strerror}); give the path of a file."
             ) from None
     return bytes(raw)
+
+
+def _refuse_binary(file: str, start: bytes) -> None:
+    """Refuse pictures, archives and the like, whose bytes any table of letters would read."""
+    odd = len(start) - len(start.translate(None, _CONTROL))
+    if odd >= _FEWEST_ODD and odd > 0.01 * len(start):
+        raise InputError(
+            f"{file} is no text ({odd} of its first {len(start)} bytes are of no letter); export "
+            "the table as CSV, or as .xlsx with that ending."
+        )
 
 
 def _encoding_of(raw: bytes) -> tuple[str, str]:

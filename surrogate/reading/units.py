@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -65,6 +66,8 @@ class Dimension:
 _SUPERSCRIPTS = str.maketrans(
     {"²": "2", "³": "3", "¹": "1", "⁻": "-", "−": "-", "µ": "u", "μ": "u"}
 )
+_CYRILLIC = str.maketrans("мсНПакгМн", "mcNPakgMn")
+"""Letters of units in Russian: мм, Н/м, кПа."""
 SYNONYMS = {
     **{name: name for name in ("mm", "cm", "um", "in", "gf", "kgf", "lbf", "g", "kg", "s", "min")},
     **{"kn": "kN", "n": "N", "kpa": "kPa", "n/mm": "N/mm", "n/m": "N/m"},
@@ -76,6 +79,14 @@ SYNONYMS = {
     **{"millimeter": "mm", "millimetre": "mm", "millimeters": "mm", "micron": "um"},
     **{f"{one}/sec": f"{one}/s" for one in ("mm", "cm", "m", "in")},
     **{name: name for name in ("mm/s", "mm/min", "cm/min", "in/min")},
+    **{
+        "mils": "mil",
+        "thou": "mil",
+        "dyne": "dyn",
+        "dynes": "dyn",
+        **{"mkm": "um", "n/m2": "Pa", "kn/m2": "kPa", "n/mm2": "MPa"},
+        "dyne/cm": "dyn/cm",
+    },
     **{"microns": "um", "micrometer": "um", "micrometre": "um", "minutes": "min", "msec": "ms"},
 }
 
@@ -83,6 +94,8 @@ SYNONYMS = {
 def _spelled(text: str) -> str:
     """Return a unit's text in one spelling: N_per_m, N m-1 and N·m⁻¹ as N/m, J/m² as J/m2."""
     text = text.strip().translate(_SUPERSCRIPTS)
+    if not text.isascii():
+        text = unicodedata.normalize("NFKC", text).translate(_CYRILLIC)
     text = re.sub(r"[_\s]*\bper\b[_\s]*|_per_", "/", text).replace("^", "").replace("**", "")
     text = re.sub(r"[\s·*.]*\b([a-zA-Z]+)-([123])$", _divided, text)
     return text.replace(" ", "")
@@ -96,6 +109,7 @@ _STRESS_POWERS = {"Pa": 0, "kPa": 3, "MPa": 6}
 _LINE_FORCE_POWERS = {"N/m": 0, "mN/m": -3, "kN/m": 3, "N/cm": 2, "N/mm": 3, "mN/mm": 0}
 _SURFACE_ENERGY_POWERS = {"J/m2": 0, "mJ/m2": -3, "kJ/m2": 3}
 _INCH, _POUND = 0.0254, 0.45359237 * GRAVITY
+_INCHES = {"in": Unit(0, _INCH), "mil": Unit(-3, _INCH)}
 _WEIGHTS = {
     "gf": Unit(-3, GRAVITY),
     "g": Unit(-3, GRAVITY),
@@ -103,15 +117,17 @@ _WEIGHTS = {
     "kg": Unit(0, GRAVITY),
     "lbf": Unit(0, _POUND),
     "ozf": Unit(0, _POUND / 16.0),
+    "dyn": Unit(-5),
 }
 _LINE_WEIGHTS = {
     "gf/mm": Unit(0, GRAVITY),
     "gf/cm": Unit(-1, GRAVITY),
     "kgf/m": Unit(0, GRAVITY),
     "lbf/in": Unit(0, _POUND / _INCH),
+    "dyn/cm": Unit(-3),
 }
 
-LENGTH = Dimension("a length", {"m": 0, "cm": -2, "mm": -3, "um": -6}, {"in": Unit(0, _INCH)})
+LENGTH = Dimension("a length", {"m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9}, _INCHES)
 FORCE = Dimension("a force", {"N": 0, "mN": -3, "uN": -6, "cN": -2, "kN": 3}, _WEIGHTS)
 TIME = Dimension("a time", {"s": 0, "ms": -3}, {"min": Unit(0, 60.0), "h": Unit(0, 3600.0)})
 _MINUTE = 1.0 / 60.0

@@ -8,124 +8,23 @@ from dataclasses import dataclass, field, replace
 
 from surrogate.errors import InputError
 from surrogate.reading.before import thickness_before
-from surrogate.reading.headings import (
-    Heading,
-    headings,
-    is_units_row,
-    meaning,
-    plain,
-    split_unit,
-    vocabulary,
-)
+from surrogate.reading.forms.cells import tidied
+from surrogate.reading.forms.gauges import is_gauge, names_other_gauge
+from surrogate.reading.forms.merged import merged_names, with_wires
+from surrogate.reading.forms.remarks import SUMMARY, measurements_apart, sums_up
+from surrogate.reading.headings import Heading, headings, is_units_row, meaning, split_unit
 from surrogate.reading.sheet import Row, Sheet
-from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, Dimension
+from surrogate.reading.words.phrases import is_scatter
+from surrogate.reading.words.spelling import plain
+from surrogate.reading.words.wire_words import COLUMNS, COUNT, DEVIATION, SAMPLE, WORDS
 
-__all__ = [
-    "COLUMNS",
-    "COUNT",
-    "DEVIATION",
-    "SUMMARY",
-    "WORDS",
-    "Table",
-    "find_table",
-    "has_table",
-]
+__all__ = ["Table", "find_table", "has_table"]
 
-COLUMNS: dict[str, Dimension] = {
-    "wire_radius": LENGTH,
-    "wire_diameter": LENGTH,
-    "force_per_thickness": LINE_FORCE,
-    "force_std": LINE_FORCE,
-    "force": FORCE,
-    "thickness": LENGTH,
-}
-"""Quantities that a table of measurements may hold."""
-
-_FORCES = (("force_per_thickness", LINE_FORCE), ("force", FORCE))
-_SPREAD = (
-    "std,stdev,std dev,st dev,sd,se,sem,stderr,std err,standard error,standard deviation,error,"
-    "std error,uncertainty,+/-,±,fehler,standardfehler,standardabweichung,ecart type,erreur type,"
-    "desviacion estandar,error estandar,deviazione standard,errore standard,desvio padrao,"
-    "standaardafwijking,odchylenie standardowe,标准差,標準偏差,標準誤差"
-)
-WORDS = vocabulary(
-    {
-        "wire_radius": [("wire_radius", LENGTH)],
-        "wire_diameter": [("wire_diameter", LENGTH)],
-        "force_per_thickness": [("force_per_thickness", LINE_FORCE)],
-        "force": [("force", FORCE), ("force_per_thickness", LINE_FORCE)],
-        "force_std": [("force_std", LINE_FORCE), ("total_std", FORCE)],
-        "thickness": [("thickness", LENGTH)],
-        "trial": _FORCES,
-    },
-    {
-        "wire_radius": "wire_radius,radius,r,r_w,rw,radius of wire,drahtradius,radius wire,"
-        "needle radius,blade radius,fiber radius,fibre radius,rayon,rayon du fil,radio,"
-        "radio del alambre,radio del hilo,raggio,raggio filo,raggio del filo,raio,raio do fio,"
-        "straal,promien,promien drutu,半径",
-        "wire_diameter": "wire_diameter,diameter,d,d_w,dw,dia,wire dia,wire diam,wire,wire size,"
-        "diameter of wire,drahtdurchmesser,durchmesser,draht,needle diameter,ø,wire ø,draht ø,"
-        "fiber diameter,fibre diameter,⌀,diametre,diametre du fil,diametre fil,fil,diametro,"
-        "diametro del alambre,diametro alambre,diametro del hilo,diametro hilo,diametro filo,"
-        "diametro del filo,diametro do fio,diametro fio,draaddiameter,diameter draad,srednica,"
-        "srednica drutu,tråddiameter,线径,丝径,直径,线直径,線径,ワイヤ径,ワイヤー径",
-        "force_per_thickness": "force_per_thickness,f_ss/t,fss/t,f/t,f_ss per t,force/thickness,"
-        "steady force per thickness,cutting force per thickness,mean force per thickness,"
-        "steady state force per thickness,force per width,line force,f/b,f/w,"
-        "kraft pro dicke,kraft je dicke,kraft/dicke,linienkraft,force par epaisseur,"
-        "force/epaisseur,f/e,fuerza por espesor,fuerza/espesor,forza per spessore,"
-        "forza/spessore,f/s,forca/espessura,kracht/dikte,kracht per dikte,siła/grubosc",
-        "force": "force,f,f_ss,fss,steady force,steady state force,cutting force,mean force,"
-        "average force,steady_state_force,plateau force,load,mean load,steady load,kraft,"
-        "schnittkraft,mittlere kraft,last,force mean,force de coupe,fuerza,fuerza de corte,carga,"
-        "forza,forza di taglio,forca,forca de corte,kracht,snijkracht,siła,siła ciecia,skärkraft,"
-        "力,切割力,切断力,荷重,切断荷重,載荷,载荷",
-        "force_std": ",".join(
-            f"{quantity}{words}"
-            for words in _SPREAD.split(",")
-            for quantity in ("", "force ", "load ", "f/t ", "f_ss/t ", "force per thickness ")
-        ),
-        "thickness": "thickness,sample thickness,specimen thickness,t,gel thickness,dicke,"
-        "probendicke,thickness of sample,thickness of the sample,epaisseur,espesor,spessore,"
-        "espessura,dikte,grubosc,tjocklek,厚度,厚さ,厚み",
-        "trial": "trial n,run n,repeat n,rep n,replicate n,test n,measurement n,messung n,"
-        "versuch n,cut n,schnitt n,wiederholung n,essai n,ensayo n,prova n,meting n",
-    },
-)
-SUMMARY = re.compile(
-    r"(mean|average|median|std|sd|stdev|st dev|standard deviation|standard error|sem|cov|cv|"
-    r"coefficient of variation|minimum|maximum|min|max|range|sum|"
-    r"mittelwert|standardabweichung|variationskoeffizient|spannweite|moyenne|ecart type|"
-    r"media|mediana|desviacion estandar|deviazione standard|x quer|n|x̄)( [±+-] .*)?"
-)
-"""First cells of lines below a table that sum it up, and are no measurements."""
-COUNT = {"n", "count", "number", "anzahl", "number of cuts", "number of tests", "repeats", "cuts"}
-DEVIATION = re.compile(
-    r"\b(sd|stdev|std dev|st dev|standard deviation|standardabweichung|ecart type|"
-    r"desviacion estandar|deviazione standard|desvio padrao|standaardafwijking|"
-    r"odchylenie standardowe|标准差|標準偏差)\b"
-)
-_WITH_ERROR = re.compile(r"(.*[0-9.,])\s*(?:±|\+/?-)\s*([0-9.,].*)")
-_WITH_UNIT = re.compile(r"([+-]?[0-9.,]*[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*([^\W\d].*|\")")
 _OF_STEADY = re.compile(
     "file|specimen number|trial|within record error of force|plateau (from|to|drift)|"
     "peak of force|stick slip drop|(offset|tare) subtracted"
 )
 """Columns of `wirecut steady` that say how a force was taken."""
-_SAMPLE = {
-    *("sample", "gel", "specimen", "material", "probe", "batch", "sample id", "charge", "hydrogel"),
-    *(
-        "echantillon",
-        "eprouvette",
-        "muestra",
-        "campione",
-        "provino",
-        "amostra",
-        "monster",
-        "probka",
-    ),
-    *("试样", "样品", "試料", "試験片", "サンプル"),
-}
 
 
 @dataclass(frozen=True)
@@ -164,12 +63,7 @@ class Table:
 
 def has_table(sheet: Sheet) -> bool:
     """Whether a row or a column of a sheet names a wire."""
-    return any(
-        one[0][0] in ("wire_radius", "wire_diameter")
-        for row in sheet.rows[:200]
-        for cell in row.cells
-        if (one := meaning(split_unit(cell, WORDS)[0], WORDS)[0])
-    )
+    return any(_is_wire(cell) for row in sheet.rows[:200] for cell in row.cells)
 
 
 def find_table(sheet: Sheet, by: str | None = None) -> tuple[Sheet, Table]:
@@ -197,21 +91,15 @@ def find_table(sheet: Sheet, by: str | None = None) -> tuple[Sheet, Table]:
     if others and _known(first) and any(map(sheet.is_number, others)) and not _names(others):
         sheet = sheet.on_its_side()
         start = _header(sheet)
-    header, body = sheet.rows[start], sheet.rows[start + 1 :]
-    units = body.pop(0) if body and is_units_row(sheet, body[0]) else None
-    summary = [row for row in body if _sums_up(row)]
-    header, units, body = _tidied(header, units, [row for row in body if row not in summary])
+    header, units, body, notes = _parts(sheet, start)
     listed = headings(sheet, header, WORDS, units)
     gel = None if by is None else _named(sheet, header, listed, by)
-    named = [one.number - 1 for one in listed if plain(one.name) in _SAMPLE]
+    named = [one.number - 1 for one in listed if plain(one.name) in SAMPLE]
     sample = next((index for index in named if index != gel), None)
     before = thickness_before(sheet, sheet.rows[:start])
     columns = _by_quantity(sheet, header, listed)
     table = Table(header, columns, body, len(listed), before, sample, gel=gel)
-    table.notes.extend(sheet.notes)
-    if summary:
-        lines = ", ".join(f"{row.line} ({next(filter(None, row.cells))})" for row in summary)
-        table.notes.append(f"{sheet.file}: sums up and not read: {sheet.line} {lines}")
+    table.notes.extend((*sheet.notes, *notes))
     table = replace(table, count=_count(table, listed))
     besides = (table.sample, table.count, table.gel)
     unknown = [one for one in listed if not one.quantity and one.number - 1 not in besides]
@@ -221,6 +109,50 @@ def find_table(sheet: Sheet, by: str | None = None) -> tuple[Sheet, Table]:
     if names:
         table.notes.append(f"{sheet.file}: not used: {', '.join(names)}")
     return sheet, table
+
+
+def _parts(sheet: Sheet, start: int) -> tuple[Row, Row | None, list[Row], list[str]]:
+    """Return the names, the units below them, the measurements, and what else stands there."""
+    header, body = sheet.rows[start], sheet.rows[start + 1 :]
+    wire = next((i for i, cell in enumerate(header.cells) if _is_wire(cell)), None)
+    forces = [i for i, cell in enumerate(header.cells) if _is_force(cell)]
+    notes: list[str] = []
+    if body and wire is not None:
+        below = body[0]
+        summary = [i for i, cell in enumerate(below.cells) if SUMMARY.fullmatch(plain(cell))]
+        names = merged_names(sheet, header, below, wire, forces, summary)
+        if names:
+            notes.append(f"{sheet.place(below)} is taken for the numbers of trials of one force")
+            header, body = Row(header.line, names), body[1:]
+            forces = [i for i, cell in enumerate(names) if _is_force(cell)]
+    units = body.pop(0) if body and is_units_row(sheet, body[0]) else None
+    summing = [row for row in body if sums_up(row, wire)]
+    body = [row for row in body if row not in summing]
+    if summing:
+        lines = ", ".join(f"{row.line} ({next(filter(None, row.cells))})" for row in summing)
+        notes.append(f"{sheet.file}: sums up and not read: {sheet.line} {lines}")
+    if wire is not None and forces:
+        body, remarks = measurements_apart(sheet, body, wire, forces, _is_header)
+        body, merged = with_wires(sheet, body, wire, forces)
+        notes += remarks + merged
+    header, units, body, taken = tidied(sheet, header, units, body)
+    return header, units, body, notes + taken
+
+
+def _is_header(row: Row) -> bool:
+    return any(map(_is_wire, row.cells)) and any(map(_is_force, row.cells))
+
+
+def _is_wire(name: str) -> bool:
+    meanings = meaning(split_unit(name, WORDS)[0], WORDS)[0]
+    if meanings:
+        return meanings[0][0] in ("wire_radius", "wire_diameter")
+    return is_gauge(name)
+
+
+def _is_force(name: str) -> bool:
+    meanings = meaning(split_unit(name, WORDS)[0], WORDS)[0]
+    return any(quantity in ("force", "force_per_thickness") for quantity, _ in meanings)
 
 
 def _named(sheet: Sheet, header: Row, listed: list[Heading], name: str) -> int:
@@ -240,76 +172,13 @@ def _is_of_steady(column: str) -> bool:
     return any(_OF_STEADY.fullmatch(one) for one in (name, name.rpartition(" ")[0]))
 
 
-def _sums_up(row: Row) -> bool:
-    """Whether a row begins with a word such as Mean."""
-    first = next(filter(None, row.cells), "")
-    return SUMMARY.fullmatch(plain(first)) is not None
-
-
 def _count(table: Table, listed: list[Heading]) -> int | None:
     """Return the index of the column that tells how many cuts a standard deviation is of."""
     stds = [one for kind in ("force_std", "total_std") for one in table.columns.get(kind, ())]
-    if not any(DEVIATION.search(plain(one.name)) for one in stds):
+    names = [split_unit(one.name, WORDS)[0] for one in stds]
+    if not any(DEVIATION.search(plain(name)) or is_scatter(name) for name in names):
         return None
     return next((one.number - 1 for one in listed if plain(one.name) in COUNT), None)
-
-
-def _tidied(header: Row, units: Row | None, body: list[Row]) -> tuple[Row, Row | None, list[Row]]:
-    """Return a table whose cells hold a number alone: no unit with it, and no error behind it."""
-    names, below = list(header.cells), list(units.cells if units else [])
-    below += [""] * (len(names) - len(below))
-    rows = [list(row.cells) for row in body]
-    for column in range(len(names)):
-        errors = _errors_apart(rows, column)
-        unit = _unit_apart(rows, column, names[column])
-        below[column] = unit or below[column]
-        if errors and _is_force(names[column]):
-            text = split_unit(names[column], WORDS)[1] or below[column]
-            names.append(f"± [{text}]")
-            below.append(text)
-            for row, error in zip(rows, errors, strict=True):
-                row += [""] * (len(names) - 1 - len(row)) + [error]
-    tidy = [  # a row that was tidy is kept, which large tables are full of
-        row if row.cells == cells else Row(row.line, cells)
-        for row, cells in zip(body, rows, strict=True)
-    ]
-    line = units.line if units else header.line
-    return Row(header.line, names), Row(line, below) if any(below) else None, tidy
-
-
-def _is_force(name: str) -> bool:
-    meanings, _ = meaning(split_unit(name, WORDS)[0], WORDS)
-    return any(quantity in ("force", "force_per_thickness") for quantity, _ in meanings)
-
-
-def _errors_apart(rows: list[list[str]], column: int) -> list[str]:
-    """Take what stands behind ± out of a column and return it; nothing where nothing does."""
-    matches = [_WITH_ERROR.fullmatch("".join(row[column : column + 1])) for row in rows]
-    for row, match in zip(rows, matches, strict=True):
-        if match:
-            tail = _WITH_UNIT.fullmatch(match[2])
-            row[column] = f"{match[1]} {tail[2]}" if tail else match[1]
-    if not any(matches):
-        return []
-    return [_WITH_UNIT.sub(r"\1", match[2]) if match else "" for match in matches]
-
-
-def _unit_apart(rows: list[list[str]], column: int, name: str) -> str:
-    """Take the unit out of the cells of a column where all have the same, and return it."""
-    cells = [row[column] for row in rows if len(row) > column and row[column]]
-    matches = [_WITH_UNIT.fullmatch(cell) for cell in cells]
-    units = {match[2].strip() if match else "" for match in matches}
-    if len(units) != 1 or "" in units:
-        return ""
-    (unit,) = units
-    stated = split_unit(name, WORDS)[1]
-    known = any(kind.unit(unit) for kind in (LENGTH, FORCE, LINE_FORCE))
-    if not known or stated not in (None, unit):
-        return ""
-    for row in rows:
-        if len(row) > column:
-            row[column] = _WITH_UNIT.sub(r"\1", row[column])
-    return unit
 
 
 def _filled(heading: Heading, body: list[Row]) -> bool:
@@ -330,7 +199,8 @@ def _header(sheet: Sheet) -> int:
     for wanted in ({"wire_radius", "wire_diameter"}, set(COLUMNS)):
         for index, row in enumerate(sheet.rows[:200]):
             means = [meaning(split_unit(cell, WORDS)[0], WORDS)[0] for cell in row.cells]
-            if len(row.cells) > 1 and any(one[0][0] in wanted for one in means if one):
+            named = any(one[0][0] in wanted for one in means if one)
+            if len(row.cells) > 1 and (named or any(map(is_gauge, row.cells))):
                 return index
     return 0
 
@@ -355,8 +225,14 @@ def _check_columns(sheet: Sheet, table: Table, unknown: list[str]) -> None:
     others = f" (not known: {', '.join(unknown)})" if unknown else ""
     if ("wire_radius" in columns) == ("wire_diameter" in columns):
         state = "both a radius and a diameter" if "wire_radius" in columns else "no wire radius"
+        gauge = (
+            "; a gauge is no length by itself (name it AWG if it is the American wire gauge)"
+            if names_other_gauge(unknown)
+            else ""
+        )
         raise InputError(
-            f"{place} names {state}{others}; keep wire_radius_<unit> or wire_diameter_<unit>."
+            f"{place} names {state}{others}{gauge}; keep wire_radius_<unit> or "
+            "wire_diameter_<unit>."
         )
     if "force_per_thickness" not in columns and "force" not in columns:
         raise InputError(

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from os import PathLike
 
 from surrogate.errors import InputError
-from surrogate.reading.headings import plain
 from surrogate.reading.sheet import Sheet, read_sheet
 from surrogate.reading.units import LENGTH, Unit, parse_number
+from surrogate.reading.words.spelling import plain
 
 __all__ = ["Wire", "wires_by_name", "wires_by_table"]
 

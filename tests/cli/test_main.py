@@ -279,3 +279,39 @@ def test_output_is_ascii(capsys):
     for command in ("identify --example", "models", f"regime {SCENE} --wire-radius 1mm"):
         run(command)
     assert io.StringIO(capsys.readouterr().out).read().isascii()
+
+
+RUBBING = (
+    "--shear-modulus 3kPa --toughness 1.6J/m2 --wire-diameter 3um 0.2mm --friction-coefficient 0.2"
+)
+
+
+def test_wires_that_a_model_does_not_reach_are_left_out(capsys, tmp_path):
+    picture = tmp_path / "force.png"
+    assert run(f"force {RUBBING} --outside nan --json --plot {picture}") == 0
+    told = json.loads(capsys.readouterr().out)
+    thin, thick = told["wires"]
+    assert thin["total"] is thin["fit_error"] is thin["law_error"] is None
+    assert run(f"force {RUBBING.replace('3um ', '')} --json") == 0
+    (alone,) = json.loads(capsys.readouterr().out)["wires"]
+    assert thick == alone
+    assert any("no answer for 1 of 2 wires (g = 355.6)" in note for note in told["notes"])
+    assert picture.exists()
+    assert run(f"regime {RUBBING} --outside nan --model table --json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert next(wire["dominant"] for wire in told["wires"]) == "unknown"
+    assert any("no answer for 1 of 2 wires" in note for note in told["notes"])
+
+
+@pytest.mark.parametrize("wires", ["3um 0.2mm", "3um"])
+def test_a_refusal_teaches_the_option_where_it_helps(capsys, wires):
+    assert run(f"force {RUBBING.replace('3um 0.2mm', wires)}") == 2
+    helps = "With --outside nan the other wires are answered." in capsys.readouterr().err
+    assert helps == (wires != "3um")
+
+
+def test_what_is_outside_is_continued_or_left_out(capsys):
+    assert run(f"force {RUBBING} --outside nan --extrapolate") == 2
+    assert "give one of them" in capsys.readouterr().err
+    assert run(f"force {RUBBING.replace(' 0.2mm', '')} --outside nan --plot force.png") == 2
+    assert "no wire has a force to draw" in capsys.readouterr().err

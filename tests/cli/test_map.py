@@ -95,3 +95,11 @@ def test_bad_input_ends_in_one_line_and_code_2(options, words, capsys, tmp_path,
     assert streams.err.startswith("wirecut: ")
     assert streams.err.count("\n") == 1
     assert words in streams.err
+
+
+def test_a_map_on_which_the_model_holds_nowhere_is_doubted(capsys):
+    ranges = "--x R_w 0.1um 1um --y tau_w 1kPa 2kPa --fix mu=685Pa Gamma_o=1.6J/m2 --nodes 11"
+    assert main(["map", *ranges.split(), "--model", "table"]) == 3
+    said = " ".join(capsys.readouterr().out.split())
+    assert "The model holds on 0.0 % of the map; elsewhere it is continued" in said
+    assert "holds nowhere on the map" in said

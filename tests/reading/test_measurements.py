@@ -100,7 +100,6 @@ def test_comments_empty_lines_byte_order_mark_and_windows_line_ends(write):
         (HEADER + "1,NaN\n", "line 2, column 2", "'NaN' is not a number"),
         (HEADER + "1,inf\n", "line 2, column 2", "not a number"),
         (HEADER + "1_000,2\n", "line 2, column 1", "not a number"),
-        (HEADER + "１,2\n", "line 2, column 1", "not a number"),
         (HEADER + "1,2 N\n", "line 2, column 2", "not a number"),
         (HEADER + "1,1e999\n", "line 2, column 2", "not a positive number"),
         (HEADER + "1e-999,1\n", "line 2, column 1", "not a positive number"),

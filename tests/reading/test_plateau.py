@@ -172,3 +172,54 @@ def test_the_autocorrelation_time_is_that_of_the_process():
     noise = coloured(np.random.default_rng(0), 100_000, 0.9)
     assert autocorrelation_time(noise) == pytest.approx(19.0, rel=0.1)
     assert autocorrelation_time(np.ones(50)) == 1.0
+
+
+def noisy(n=800, level=0.08, drift=0.0):
+    """Return travel [m] and force [N] of a cut with free travel, noise and no peak."""
+    x = np.linspace(0.0, 0.02, n)
+    noise = 5e-4 * np.random.default_rng(7).normal(size=n)
+    return x, level * np.clip((x - 0.005) / 0.002, 0.0, 1.0) + drift * x + noise
+
+
+def test_a_load_cell_at_its_end_gives_no_force():
+    x, f = noisy()
+    with pytest.raises(InputError, match=r"% of the forces along the plateau are the largest"):
+        steady_force(x, np.minimum(f, 0.07))
+    with pytest.raises(InputError, match=r"0\.07 N, to the last digit"):
+        steady_force(x, np.minimum(f, 0.07), start=0.01, end=0.02)
+    # A clean record, and one in coarse steps, stand still without being cut off.
+    assert steady_force(x, np.round(f, 2)).mean == pytest.approx(0.08, rel=0.02)
+    clean = 0.08 * np.clip((x - 0.005) / 0.002, 0.0, 1.0)
+    assert steady_force(x, clean).mean == pytest.approx(0.08, rel=1e-9)
+
+
+def test_a_peak_that_is_cut_off_is_named():
+    x, f = noisy()
+    f += 0.1 * np.exp(-(((x - 0.008) / 5e-4) ** 2))
+    steady = steady_force(x, np.minimum(f, 0.12))
+    assert steady.mean == pytest.approx(0.08, rel=0.01)
+    assert any("the peak is cut off by the range" in one for one in steady.warnings)
+    assert not any("cut off" in one for one in steady_force(x, f).warnings)
+
+
+def test_a_few_forces_far_off_do_not_move_the_mean_in_silence():
+    x, f = noisy()
+    glitches = f.copy()
+    glitches[400::120] = 2.0
+    with pytest.raises(InputError, match=r"4 of \d+ forces are far off the others \(first 2 N"):
+        steady_force(x, glitches, start=0.009, end=0.02)
+    one = f.copy()
+    one[600] = 50.0
+    with pytest.raises(InputError, match=r"1 of \d+ forces are far off .* delete their lines"):
+        steady_force(x, one)
+
+
+@pytest.mark.parametrize(("drift", "said"), [(0.0, False), (0.4, True), (-0.4, True)])
+def test_a_zero_that_drifts_before_contact_is_named(drift, said):
+    x, f = noisy(4000, drift=drift)
+    steady = steady_force(x, f)
+    told = [one for one in steady.warnings if "force before contact changes by" in one]
+    assert bool(told) == said
+    if told:
+        off = float(told[0].split("off by ")[1].removesuffix(" %")) / 100.0
+        assert off == pytest.approx(steady.mean / 0.08 - 1.0, abs=0.02)

@@ -328,6 +328,17 @@ def test_columns_named_by_the_caller(write):
         read_record(write(two), columns="time_s,-,-")
 
 
+@pytest.mark.parametrize(("begin", "sign"), [(0.0, 1.0), (100.0, 1.0), (100.0, -1.0)])
+def test_channels_that_tell_the_same_travel_are_read_once(write, begin, sign):
+    names = "Standardweg [mm],Traversenweg absolut [mm],Kraft [N]"
+    second = [begin + sign * one for one in TRAVEL]
+    record = read_record(write([names, *table([TRAVEL, second, FORCE])]))
+    np.testing.assert_allclose(record.displacement, scaled(TRAVEL, 1e-3), atol=1e-9)
+    assert "displacement from 'Standardweg [mm]'" in record.understood
+    with pytest.raises(InputError, match="several columns of displacement"):
+        read_record(write([names, *table([TRAVEL, scaled(TRAVEL, 0.99), FORCE])]))
+
+
 @pytest.mark.parametrize(
     ("lines", "options", "says"),
     [
@@ -335,7 +346,7 @@ def test_columns_named_by_the_caller(write):
         (["Extension,Load", *table([TRAVEL, FORCE])], {}, "has no unit"),
         (["Extension (mm),Load (oz)", *table([TRAVEL, FORCE])], {}, "a unit of force"),
         (
-            ["Extension (mm),Crosshead (mm),Load (N)", *table([TRAVEL, TRAVEL, FORCE])],
+            ["Extension (mm),Crosshead (mm),Load (N)", *table([TRAVEL, FORCE, FORCE])],
             {},
             "several columns of displacement: column 1 (Extension (mm)) and column 2",
         ),
