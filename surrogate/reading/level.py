@@ -66,8 +66,8 @@ def noise_of(force: Array) -> float:
 def cut_off(force: Array) -> NDArray[np.bool_]:
     """Return which forces stand at the end of the load cell's range; none where it is not seen.
 
-    They are the largest, one after another, to the last digit, while the others scatter by more than
-    the steps in which forces are recorded.
+    They are the largest, one after another, to the last digit, while the others scatter by more
+    than the steps in which forces are recorded.
 
     Examples
     --------
