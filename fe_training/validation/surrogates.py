@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fe_training.campaign.store import write_atomically
-from fe_training.fitting.bounds import fit_slip_bounds
+from fe_training.fitting.bounds import DOUBT, fit_slip_bounds
 from fe_training.fitting.fit import fit, write_fitted
 from fe_training.fitting.points import FitPoints, points_of
 from fe_training.fitting.process import transformed
@@ -188,11 +188,14 @@ def _off_grid_shares(
 
 
 def _table_from_process(fitted: Fitted) -> dict[str, float]:
-    """Return the largest differences at random points of the domain."""
+    """Return the largest differences at random points, but for the touch where A* is not known."""
     random = np.random.default_rng(0)
     limits = fitted.limits
     g = np.exp(random.uniform(*limits.log_g, _RANDOM_POINTS))
     alpha = random.uniform(*limits.alpha, _RANDOM_POINTS)
+    x = np.log(g) - limits.log_touch(np.log(alpha))
+    known = limits.holds(g, alpha) & (np.abs(x) > DOUBT * fitted.touch_error)
+    g, alpha = g[known], alpha[known]
     names = tuple(fitted.processes)
     table, process = (fitted.models[name].contact(names, g, alpha) for name in ("table", "gp"))
     return {
