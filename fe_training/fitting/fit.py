@@ -73,6 +73,7 @@ def fit(points: FitPoints, about: Mapping[str, Any] | None = None) -> Fitted:
     table = fit_table(ProcessModel(limits, processes, touch.error))
     constants = fit_blend(points, touch)
     told = {**(about or {}), "eq9": eq9_fits(points), "touch_points": _touch_points(touch)}
+    told["truncation"] = points.truncation_rate
     told["scatter"] = {name: asdict(one.scatter) for name, one in hyperparameters.items()}
     bare = Fitted(limits, processes, table, constants, touch.error, told)
     told["bounds"] = fit_bounds(points, touch, processes, bare.models).as_dict()

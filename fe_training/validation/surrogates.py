@@ -36,7 +36,7 @@ from fe_training.validation.model_errors import (
     tables_of,
     the_models,
 )
-from surrogate.contact.coordinates import SLIP_QUANTITIES
+from surrogate.contact.coordinates import LOADS, SLIP_QUANTITIES
 from surrogate.contact.shipped import Fitted
 from surrogate.errors import InputError
 
@@ -182,6 +182,8 @@ def _off_grid_shares(
     found: dict[str, Mapping[str, float]] = {}
     for name, (at, values, differences) in transformed(points, touch).items():
         mean, std = fitted.processes[name].predict(at)
+        if name in LOADS:
+            std = np.hypot(std, fitted.about["truncation"] * np.exp(0.5 * at[:, 0]))
         own = np.sqrt(Scatter(**fitted.about["scatter"][name]).of(differences))
         found[name] = calibration(mean - values, std, own)
     return found

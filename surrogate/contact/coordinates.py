@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "AT_THE_TIP",
+    "LOADS",
     "POWER",
     "QUANTITIES",
     "RISE",
@@ -46,6 +47,9 @@ __all__ = [
 
 QUANTITIES = ("arc", "normal_load", "distance")
 SLIP_QUANTITIES = ("slip_arc", "slip_load")
+LOADS = ("normal_load", "slip_load")
+"""What a finite body changes: integrals of the pressure."""
+
 AT_THE_TIP = ("slip_arc",)
 """What feels the tip before it touches the wire: A*, to which its slip is added from then on."""
 

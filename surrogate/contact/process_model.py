@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from surrogate.basics.elementwise import log
 from surrogate.contact.coordinates import (
     AT_THE_TIP,
+    LOADS,
     POWER,
     coordinates,
     coordinates_of,
@@ -42,11 +43,15 @@ class ProcessModel(FittedModel):
         Of the quantities of `surrogate.contact.coordinates`.
     touch_error : float
         Standard error of ln g_touch, which the standard deviation of delta contains [-].
+    truncation : float
+        What the solutions' finite body does to B and B*, relative to sqrt(g), which their standard
+        deviations contain [-].
     """
 
     limits: Domain
     processes: Mapping[str, GaussianProcess] = field(repr=False)
     touch_error: float = 0.0
+    truncation: float = 0.0
     name: str = "gp"
     uncertain: bool = True
     equation: str = "Gaussian processes"
@@ -100,6 +105,8 @@ class ProcessModel(FittedModel):
             if name == "distance":
                 x = np.minimum(at[:, 0] - self.limits.log_touch(at[:, 1]), -self.touch_error)
                 std = np.hypot(std, POWER * self.touch_error / x)
+            elif name in LOADS:
+                std = np.hypot(std, self.truncation * np.exp(0.5 * at[:, 0]))
             stds.append(np.where(inside, size * std, np.nan))
         return stds
 

@@ -99,7 +99,12 @@ class Fitted:
         models = (
             BlendModel(self.limits, self.constants),
             TableModel(self.limits, self.table),
-            ProcessModel(self.limits, self.processes, self.touch_error),
+            ProcessModel(
+                self.limits,
+                self.processes,
+                self.touch_error,
+                float(self.about.get("truncation", 0.0)),
+            ),
         )
         return {model.name: model for model in models}
 
