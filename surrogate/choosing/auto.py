@@ -52,7 +52,7 @@ class AutomaticTerms:
     >>> scene = 685.0, 1.6, 0.25e-3, 0.1, 7750.0, 2.0
     >>> friction, wear, inside, number, bound = AutomaticTerms(scene, 0.02)(*scene)
     >>> print(f"{friction:.2f} {wear:.2f} {bound < 0.02}")
-    0.16 5.57 True
+    0.16 5.59 True
     """
 
     dtypes = (float, float, bool, np.uint8, float)

@@ -60,7 +60,7 @@ class ForceFunction:
     >>> gel = Scene(685.0, 1.6, 0.25e-3, 0.1, 7750.0)
     >>> force = prepare(gel, ranges={"wire_radius": (1e-4, 1e-3)})
     >>> print(f"{force(0.25e-3):.2f} N/m")
-    7.33 N/m
+    7.35 N/m
     >>> force(np.array([1e-4, 5e-3]), outside="nan").round(2)
     array([3.67,  nan])
     """

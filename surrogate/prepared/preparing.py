@@ -108,7 +108,7 @@ def prepare(
     >>> force.monotonic, force.terms, force.law, force.fit_error <= 0.02, force.relative_error
     ('rising', {'wear': 'table'}, 'projected', True, nan)
     >>> print(f"{1e3 * force.radius_for(7.0):.3f} mm")
-    0.244 mm
+    0.243 mm
     >>> tissue = Scene(10e3, 5.0, 0.5e-3, 0.02, 1500.0, 6.0)
     >>> force = prepare(tissue, ranges={"wire_radius": (4e-4, 1e-3)})
     >>> force.law, force.relative_error <= 0.05

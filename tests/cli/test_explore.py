@@ -28,7 +28,8 @@ def test_without_anything_it_begins_with_the_gel_of_the_paper(tmp_path, capsys):
 
 def test_cuts_and_a_material_are_identified(tmp_path, capsys):
     file = tmp_path / "explorer.html"
-    assert main(["explore", "--material", GEL, "--cuts", CUTS, "--out", str(file), "--json"]) == 0
+    # these wires can hardly tell toughness from wear, which is a warning
+    assert main(["explore", "--material", GEL, "--cuts", CUTS, "--out", str(file), "--json"]) == 3
     record, start = json.loads(capsys.readouterr().out), start_of(file)
     identify = ["identify", CUTS, "--shear-modulus", "685Pa", "--model", "table", "--json"]
     main(identify)
@@ -37,7 +38,7 @@ def test_cuts_and_a_material_are_identified(tmp_path, capsys):
     assert start["Gamma_o"] == record["toughness"] == pytest.approx(told["toughness"])
     assert start["tau_w"] == pytest.approx(told["wear_strength"])
     assert len(start["cuts"]) == 5
-    assert main(["explore", "--material", GEL, "--cuts", CUTS, "--out", str(file)]) == 0
+    assert main(["explore", "--material", GEL, "--cuts", CUTS, "--out", str(file)]) == 3
     assert "'wirecut identify' tells their intervals" in " ".join(capsys.readouterr().out.split())
 
 
