@@ -62,7 +62,7 @@ class ForceFunction:
     >>> print(f"{force(0.25e-3):.2f} N/m")
     7.35 N/m
     >>> force(np.array([1e-4, 5e-3]), outside="nan").round(2)
-    array([3.67,  nan])
+    array([3.68,  nan])
     """
 
     plan: Plan
