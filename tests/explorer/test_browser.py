@@ -138,7 +138,7 @@ def test_what_is_read_is_what_a_machine_reads(page):
         elif text != "unknown":
             assert float(text) == pytest.approx(float(value), rel=5e-3)
     assert page.text("number") == "7.19"
-    assert "error up to 1.1 %" in page.text("may-be-off")
+    assert "error up to 0.55 %" in page.text("may-be-off")
 
 
 @pytest.mark.filterwarnings("ignore")
