@@ -237,33 +237,30 @@ class CampaignDesign:
     @classmethod
     def from_dict(cls, numbers: Mapping[str, Any]) -> CampaignDesign:
         """Return the design of which `as_dict` gave the numbers."""
-        denser = {name: _plain(value) for name, value in numbers["denser"].items()}
         levels = {name: Settings(**values) for name, values in numbers["levels"]}
         rest = {name: _plain(value) for name, value in numbers.items()}
         if "nodes" in numbers:
             rest["nodes"] = tuple(map(tuple, numbers["nodes"]))
-        if "beyond" in numbers:
-            beyond = {name: _plain(value) for name, value in numbers["beyond"].items()}
-            rest["beyond"] = Beyond(**beyond)
-        if "blunt" in numbers:
-            rest["blunt"] = Blunt(**numbers["blunt"])
-        if "touching" in numbers:
-            touching = {name: _plain(value) for name, value in numbers["touching"].items()}
-            rest["touching"] = Touching(**touching)
-        return cls(**{**rest, "denser": Denser(**denser), "levels": levels})
+        for part, kind in _PARTS.items():
+            if part in numbers:
+                rest[part] = kind(**{name: _plain(value) for name, value in numbers[part].items()})
+        return cls(**{**rest, "levels": levels})
 
     def g(self, alpha: float) -> tuple[float, ...]:
         """Return the nodes in g of one alpha, rising, rounded to four digits where computed."""
         if self.nodes is not None:
             return self.nodes[self.alpha.index(alpha)]
+        beyond = self.beyond.nodes(alpha, self.highest) if self.beyond else ()
+        touching = self.touching.nodes(alpha) if self.touching else ()
+        return tuple(sorted({*self.shared(alpha), *beyond, *touching}))
+
+    def shared(self, alpha: float) -> tuple[float, ...]:
+        """Return the nodes in g of one alpha that are spaced up to `highest`, rounded."""
         fine = np.linspace(np.log10(self.lowest), np.log10(self.highest), 4001)
         density = self.denser.density(alpha, fine)
         share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
         nodes = np.interp(np.linspace(0.0, share[-1], self.count), share, fine)
-        shared = tuple(float(f"{10.0**node:.4g}") for node in nodes)
-        beyond = self.beyond.nodes(alpha, self.highest) if self.beyond else ()
-        touching = self.touching.nodes(alpha) if self.touching else ()
-        return tuple(sorted({*shared, *beyond, *touching}))
+        return tuple(float(f"{10.0**node:.4g}") for node in nodes)
 
     @property
     def points(self) -> int:
@@ -330,6 +327,10 @@ class CampaignDesign:
                 -order.index(task.configurations[0].level),
             ),
         )
+
+
+_PARTS = {"denser": Denser, "beyond": Beyond, "blunt": Blunt, "touching": Touching}
+"""Parts of a design, each of numbers of its own."""
 
 
 def _plain(value: Any) -> Any:

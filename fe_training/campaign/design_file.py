@@ -6,7 +6,7 @@ import math
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -142,13 +142,7 @@ def _checked(table: _Table) -> CampaignDesign:
     beyond = _beyond(g.table("beyond"), highest) if g.has("beyond") else None
     touching = _touching(g.table("touching")) if g.has("touching") else None
     g.end()
-    at = denser.numbers("alpha", *ALPHA_RANGE, rising=True)
-    touch = denser.numbers("touch", *G_RANGE, rising=False)
-    if len(touch) != len(at):
-        raise InputError(
-            f"g.denser.touch has {len(touch)} numbers and g.denser.alpha {len(at)}; "
-            "give one for each alpha."
-        )
+    at, touch = _touches(denser)
     peak, width = denser.number("peak", 0.0, 100.0), denser.number("width", 0.01, 10.0)
     denser.end()
     design = CampaignDesign(
@@ -164,7 +158,7 @@ def _checked(table: _Table) -> CampaignDesign:
         touching=touching,
     )
     for value in alpha:
-        if len(set(replace(design, touching=None).g(value)[:count])) < count:
+        if len(set(design.shared(value))) < count:
             raise InputError(
                 f"g.count = {count} nodes between {lowest:g} and {highest:g} coincide in four "
                 "digits; give fewer."
@@ -185,17 +179,22 @@ def _beyond(table: _Table, above: float) -> Beyond:
     return Beyond(alpha, highest, per_decade)
 
 
-def _touching(table: _Table) -> Touching:
+def _touches(table: _Table) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return exponents and the g of the touch at each."""
     alpha = table.numbers("alpha", *ALPHA_RANGE, rising=True)
     touch = table.numbers("touch", *G_RANGE, rising=False)
-    offsets = table.numbers("offsets", -3.0, 3.0, rising=True)
-    table.end()
     if len(touch) != len(alpha):
         raise InputError(
-            f"g.touching.touch has {len(touch)} numbers and g.touching.alpha {len(alpha)}; give "
-            "one for each alpha."
+            f"{table.name}touch has {len(touch)} numbers and {table.name}alpha {len(alpha)}; "
+            "give one for each alpha."
         )
-    return Touching(alpha, touch, offsets)
+    return alpha, touch
+
+
+def _touching(table: _Table) -> Touching:
+    touching = Touching(*_touches(table), table.numbers("offsets", -3.0, 3.0, rising=True))
+    table.end()
+    return touching
 
 
 def _blunt(table: _Table) -> Blunt:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_training.fitting.bounds import DOUBT
 from surrogate.contact.coordinates import AT_THE_TIP, coordinates_of
 from surrogate.contact.grid import Grid
 from surrogate.contact.process_model import ProcessModel
@@ -94,7 +95,7 @@ def _led_to_the_touch(
 
     wanted = _function(process, name, log_g, log_alpha, past=False)
     here = table(before)
-    known = log_g - process.limits.log_touch(log_alpha) < -2.0 * process.touch_error
+    known = log_g - process.limits.log_touch(log_alpha) < -DOUBT * process.touch_error
     pull = np.where(known, (table(moved) - here) / wanted, 0.0)
     off = np.where(known, (wanted - here) / wanted, 0.0)
     moved[-1] = before[-1] + np.sum(pull * off, axis=0) / np.sum(pull * pull, axis=0)

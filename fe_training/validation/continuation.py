@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.fitting.bounds import ALPHA_EDGES, SHARP
 from fe_training.fitting.points import FitPoints
+from fe_training.validation.model_errors import Continued, contact_errors
 from surrogate.contact.bounds import Bounds
 from surrogate.contact.coordinates import SLIP_QUANTITIES
-from surrogate.contact.fitted import FittedModel
 from surrogate.contact.shipped import Fitted
 
-__all__ = ["FACTORS", "Continued", "continued"]
+__all__ = ["FACTORS", "continued"]
 
 Floats = NDArray[np.float64]
 
@@ -25,28 +22,6 @@ FACTORS = (1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 """Edges of the cells, in g over the highest g."""
 
 _ROUNDING = 1.0 + 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class Continued:
-    """The errors above the highest g.
-
-    Parameters
-    ----------
-    count : int
-        Solutions there; none of them was used in fitting.
-    bounds : Bounds
-        By model and function, over g/(highest g) and alpha: the largest relative error of the
-        solutions up to there, each with its own error bar [-]; infinite where no solution reaches
-        the end of the cell.
-    """
-
-    count: int
-    bounds: Bounds
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return what goes into the file of the models."""
-        return {"count": self.count, **self.bounds.as_dict()}
 
 
 def continued(fitted: Fitted, points: FitPoints) -> Continued | None:
@@ -70,21 +45,14 @@ def continued(fitted: Fitted, points: FitPoints) -> Continued | None:
     edges = (first, *(edge for edge in ALPHA_EDGES if first < edge < last), last)
     errors = {
         name: {
-            function: _by_cell(off, ratio, points.alpha, edges, function)
-            for function, off in _errors(model, points).items()
+            function: _by_cell(
+                np.abs(off) + points.relative_std(function), ratio, points.alpha, edges, function
+            )
+            for function, off in contact_errors(model, points).items()
         }
         for name, model in fitted.models.items()
     }
     return Continued(len(points), Bounds(FACTORS, edges, errors))
-
-
-def _errors(model: FittedModel, points: FitPoints) -> Mapping[str, Floats]:
-    """Return relative errors of the functions of a model, with the solutions' own error bars."""
-    found = model.contact(points.names, points.g, points.alpha)
-    return {
-        name: np.abs(value / getattr(points, name) - 1.0) + points.relative_std(name)
-        for name, value in zip(points.names, found, strict=True)
-    }
 
 
 def _by_cell(

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_training.fitting.points import FitPoints
-from fe_training.validation.continuation import Continued
 from surrogate.basics.elementwise import apply
 from surrogate.choosing.auto import AutomaticTerms
 from surrogate.choosing.candidates import candidates
 from surrogate.choosing.choice import choose_terms
 from surrogate.contact.base import ForceModel
+from surrogate.contact.bounds import Bounds
 from surrogate.contact.closed_forms import FORCE_MODELS
 from surrogate.contact.coordinates import QUANTITIES, log_touch
 from surrogate.contact.fitted import FittedModel
@@ -27,6 +27,7 @@ __all__ = [
     "RATIOS",
     "SHORT",
     "XIS",
+    "Continued",
     "Errors",
     "Validation",
     "by_strength",
@@ -273,6 +274,28 @@ def _promised(
         np.abs((cleavage[done] + rubbed + worn) / true[done] - 1.0),
         automatic.names(number),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Continued:
+    """How far the models are off above the highest g, where their asymptotes continue them.
+
+    Parameters
+    ----------
+    count : int
+        Solutions there; none of them was used in fitting.
+    bounds : Bounds
+        By model and function, over g/(highest g) and alpha: the largest relative error of the
+        solutions up to there, each with its own error bar [-]; infinite where no solution reaches
+        the end of the cell.
+    """
+
+    count: int
+    bounds: Bounds
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return what goes into the file of the models."""
+        return {"count": self.count, **self.bounds.as_dict()}
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,6 +37,7 @@ from fe_training.validation.model_errors import (
     the_models,
 )
 from surrogate.contact.coordinates import LOADS, SLIP_QUANTITIES
+from surrogate.contact.process_model import ProcessModel
 from surrogate.contact.shipped import Fitted
 from surrogate.errors import InputError
 
@@ -180,10 +181,12 @@ def _off_grid_shares(
     fitted: Fitted, points: FitPoints, touch: Touch
 ) -> dict[str, Mapping[str, float]]:
     found: dict[str, Mapping[str, float]] = {}
+    model = fitted.models["gp"]
+    assert isinstance(model, ProcessModel)
     for name, (at, values, differences) in transformed(points, touch).items():
         mean, std = fitted.processes[name].predict(at)
         if name in LOADS:
-            std = np.hypot(std, fitted.about["truncation"] * np.exp(0.5 * at[:, 0]))
+            std = np.hypot(std, model.truncated(at[:, 0]))
         own = np.sqrt(Scatter(**fitted.about["scatter"][name]).of(differences))
         found[name] = calibration(mean - values, std, own)
     return found

@@ -87,24 +87,25 @@ class Candidates:
 
         Infinite elsewhere; None where the file of the models says nothing of it.
         """
-        measured = self.measured_beyond
-        if measured is None:
+        if self._measured_beyond is None:
             return None
-        ratio, alpha = np.broadcast_arrays(g / self.limits.highest_g(alpha), alpha)
-        cell = measured.cell(ratio, alpha)
-        arc, load = (
-            SAFETY_BEYOND * measured.by_cell(OUTSIDE, name)[cell]
-            if name in measured.errors[OUTSIDE]
-            else np.full(ratio.shape, np.inf)
-            for name in self.terms
-        )
-        return arc, load
+        bounds, (arc, load) = self._measured_beyond
+        cell = bounds.cell(*np.broadcast_arrays(g / self.limits.highest_g(alpha), alpha))
+        return arc[cell], load[cell]
 
     @cached_property
-    def measured_beyond(self) -> Bounds | None:
-        """Errors of what continues the models over g/highest g and alpha, where measured."""
+    def _measured_beyond(self) -> tuple[Bounds, list[Array]] | None:
+        """Bounds over g/(highest g) and alpha, and the errors of the terms by their cells."""
         told = self.fitted.about.get("beyond")
-        return Bounds.from_dict(told) if told else None
+        if not told:
+            return None
+        bounds = Bounds.from_dict(told)
+        unknown = np.full(bounds.cells + 1, np.inf)
+        known = bounds.errors[OUTSIDE]
+        return bounds, [
+            SAFETY_BEYOND * bounds.by_cell(OUTSIDE, name) if name in known else unknown
+            for name in self.terms
+        ]
 
     @cached_property
     def of_cells(self) -> list[tuple[Any, ...]]:

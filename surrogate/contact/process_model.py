@@ -106,9 +106,13 @@ class ProcessModel(FittedModel):
                 x = np.minimum(at[:, 0] - self.limits.log_touch(at[:, 1]), -self.touch_error)
                 std = np.hypot(std, POWER * self.touch_error / x)
             elif name in LOADS:
-                std = np.hypot(std, self.truncation * np.exp(0.5 * at[:, 0]))
+                std = np.hypot(std, self.truncated(at[:, 0]))
             stds.append(np.where(inside, size * std, np.nan))
         return stds
+
+    def truncated(self, log_g: Array) -> Array:
+        """Return what the solutions' finite body does to B and B*, relative."""
+        return self.truncation * np.exp(0.5 * log_g)
 
     def _for(self, name: str, at: Array) -> Array:
         """Return the coordinates of points as the process of a quantity has them."""

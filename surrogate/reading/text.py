@@ -25,26 +25,8 @@ _WORDS = {
     ("cp949", "CP949"): ("직경", "지름", "하중", "변위", "두께", "시간"),
     ("cp1250", "CP1250"): ("siła", "Siła", "średnica", "Średnica", "grubość", "Grubość"),
     ("cp1251", "CP1251"): ("иаметр", "олщина", "Сила", "сила", "силие", "агрузка", "еремещение"),
-    ("mac_roman", "Mac Roman"): (
-        "épaisseur",
-        "Épaisseur",
-        "iamètre",
-        "éplacement",
-        "Prüf",
-        "für",
-        "iámetro",
-        "Ø",
-    ),
-    ("cp850", "CP850"): (
-        "épaisseur",
-        "Épaisseur",
-        "iamètre",
-        "éplacement",
-        "Prüf",
-        "für",
-        "iámetro",
-        "Ø",
-    ),
+    ("mac_roman", "Mac Roman"): _ACCENTED,
+    ("cp850", "CP850"): _ACCENTED,
 }
 """Encodings that are told from CP1252 by a word that a table has in them."""
 

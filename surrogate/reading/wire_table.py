@@ -16,7 +16,14 @@ from surrogate.reading.headings import Heading, headings, is_units_row, meaning,
 from surrogate.reading.sheet import Row, Sheet
 from surrogate.reading.words.phrases import is_scatter
 from surrogate.reading.words.spelling import plain
-from surrogate.reading.words.wire_words import COLUMNS, COUNT, DEVIATION, SAMPLE, WORDS
+from surrogate.reading.words.wire_words import (
+    COLUMNS,
+    COUNT,
+    DEVIATION,
+    SAMPLE,
+    WORDS,
+    is_force,
+)
 
 __all__ = ["Table", "find_table", "has_table"]
 
@@ -115,7 +122,7 @@ def _parts(sheet: Sheet, start: int) -> tuple[Row, Row | None, list[Row], list[s
     """Return the names, the units below them, the measurements, and what else stands there."""
     header, body = sheet.rows[start], sheet.rows[start + 1 :]
     wire = next((i for i, cell in enumerate(header.cells) if _is_wire(cell)), None)
-    forces = [i for i, cell in enumerate(header.cells) if _is_force(cell)]
+    forces = [i for i, cell in enumerate(header.cells) if is_force(cell)]
     notes: list[str] = []
     if body and wire is not None:
         below = body[0]
@@ -124,7 +131,7 @@ def _parts(sheet: Sheet, start: int) -> tuple[Row, Row | None, list[Row], list[s
         if names:
             notes.append(f"{sheet.place(below)} is taken for the numbers of trials of one force")
             header, body = Row(header.line, names), body[1:]
-            forces = [i for i, cell in enumerate(names) if _is_force(cell)]
+            forces = [i for i, cell in enumerate(names) if is_force(cell)]
     units = body.pop(0) if body and is_units_row(sheet, body[0]) else None
     summing = [row for row in body if sums_up(row, wire)]
     body = [row for row in body if row not in summing]
@@ -140,7 +147,7 @@ def _parts(sheet: Sheet, start: int) -> tuple[Row, Row | None, list[Row], list[s
 
 
 def _is_header(row: Row) -> bool:
-    return any(map(_is_wire, row.cells)) and any(map(_is_force, row.cells))
+    return any(map(_is_wire, row.cells)) and any(map(is_force, row.cells))
 
 
 def _is_wire(name: str) -> bool:
@@ -148,11 +155,6 @@ def _is_wire(name: str) -> bool:
     if meanings:
         return meanings[0][0] in ("wire_radius", "wire_diameter")
     return is_gauge(name)
-
-
-def _is_force(name: str) -> bool:
-    meanings = meaning(split_unit(name, WORDS)[0], WORDS)[0]
-    return any(quantity in ("force", "force_per_thickness") for quantity, _ in meanings)
 
 
 def _named(sheet: Sheet, header: Row, listed: list[Heading], name: str) -> int:

@@ -1,5 +1,7 @@
 """The fitted models through the functions that users call: values, seams, refusals, extremes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from made_up import log_touch, truth
@@ -80,6 +82,16 @@ def test_standard_deviations_are_those_of_the_processes_only():
     assert contact_functions(1.0, 2.0, model="gp").arc_std > 0.0
     assert np.isnan(contact_functions(1e-9, 2.0, model="gp", extrapolate=True).arc_std)
     assert contact_functions(G, ALPHA).arc_std is None
+
+
+def test_what_the_finite_body_does_is_in_the_deviations_of_the_loads(installed):
+    bare = replace(installed.models["gp"], truncation=0.0)
+    taken_off = replace(bare, truncation=1e-3)
+    for name in bare.functions:
+        value = bare.contact((name,), G, ALPHA)[0]
+        (one,), (other,) = (model.stds((name,), G, ALPHA) for model in (bare, taken_off))
+        more = 1e-3 * np.sqrt(G) if name in ("normal_load", "slip_load") else 0.0
+        assert other == pytest.approx(np.hypot(one, more * value), rel=1e-12)
 
 
 @every_model

@@ -148,6 +148,7 @@ def test_numbers_that_are_none_in_the_text_are_refused(file, word):
         ({"grid": {"beyond": 1.0}}, {}),
         ({"constants": None}, {}),
         ({}, {"arc.short": np.zeros((3, 3, 4))}),
+        ({"tip": [3.0, 0.2, 4.0]}, {}),
         ({}, {"points": np.zeros((5, 2))}),
         ({}, {"distance.rows": np.zeros(5)}),
     ],

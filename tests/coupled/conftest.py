@@ -21,13 +21,17 @@ def touch():
     return shipped().limits.touch
 
 
-@pytest.fixture(scope="session")
-def made_up(touch):
-    """Fifteen bases that fill space, three of them held out."""
+def bases(count, touch):
+    """Return a data set of so many bases that fill space, every fifth of them held out."""
     from scipy.stats import qmc
 
-    places = qmc.Sobol(3, seed=3).random_base2(4)[:15]
+    places = qmc.Sobol(3, seed=3).random_base2(5)[:count]
     return data_of([one for i, place in enumerate(places) for one in rows_of_base(i, place, touch)])
+
+
+@pytest.fixture(scope="session")
+def made_up(touch):
+    return bases(15, touch)
 
 
 @dataclass(frozen=True)
@@ -44,8 +48,17 @@ class Folder:
 @pytest.fixture(scope="session")
 def fitted_folder(made_up, tmp_path_factory):
     """The folder after --fit: the data set and the shipped models, kappa and its card."""
-    path = tmp_path_factory.mktemp("coupled")
-    write_coupled(made_up, path / "coupled.h5")
+    return _fitted(made_up, tmp_path_factory.mktemp("coupled"))
+
+
+@pytest.fixture(scope="session")
+def densely_fitted(touch, tmp_path_factory):
+    """The same of as many bases as the bounds of cells need to be those of all loads."""
+    return _fitted(bases(24, touch), tmp_path_factory.mktemp("dense"))
+
+
+def _fitted(data, path):
+    write_coupled(data, path / "coupled.h5")
     for name in ("surrogates.npz", "surrogates.npz.sha256"):
         shutil.copy(ROOT / "models" / name, path / name)
     with contextlib.redirect_stdout(io.StringIO()) as out:

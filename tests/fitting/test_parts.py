@@ -7,8 +7,14 @@ import numpy as np
 import pytest
 from made_up import points
 
-from fe_training.fitting.process import leave_out_errors
+from fe_training.fitting.process import (
+    Hyperparameters,
+    _calibrated,
+    leave_out_errors,
+    process_with,
+)
 from fe_training.fitting.scatter import Scatter, likeliest_scatter, smoothed
+from fe_training.fitting.table import _function, fit_table
 from surrogate.contact.coordinates import (
     coordinates,
     coordinates_of,
@@ -23,6 +29,7 @@ from surrogate.contact.fitted import toughness_of
 from surrogate.contact.formula import BlendModel, distance_formula
 from surrogate.contact.grid import Grid
 from surrogate.contact.process import GaussianProcess
+from surrogate.contact.shipped import shipped
 from surrogate.contact.table import CellTable
 from surrogate.contact.wedge import (
     wedge_functions,
@@ -253,6 +260,39 @@ def test_leaving_out_is_what_fitting_without_gives(process):
         assert error[~rest] == pytest.approx(mean - process.values[~rest], abs=1e-6)
         expected = np.sqrt(spread**2 + process.noise[~rest])
         assert std[~rest] == pytest.approx(expected, rel=1e-3)
+
+
+def test_deviations_are_calibrated_at_points_left_out_and_the_mean_stays(process):
+    at, values, noise = process.inputs, process.values, 4.0 * process.noise
+    found = Hyperparameters(process.mean, 3.0, process.lengths, Scatter(2.0, 1e-7))
+    calibrated = _calibrated(found, at, values, noise)
+    before, after = (process_with(one, at, values, noise) for one in (found, calibrated))
+    error, std = leave_out_errors(after, np.arange(len(values)))
+    one, two = np.quantile(np.abs(error) / std, (0.683, 0.954))
+    assert one * two / 2.0 == pytest.approx(1.0, rel=1e-6)
+    assert after.predict_mean(at) == pytest.approx(before.predict_mean(at), abs=1e-6)
+
+
+def test_the_table_of_what_feels_the_tip_follows_it_up_to_the_touch():
+    process = shipped().models["gp"]
+    table = fit_table(process)
+    grid, (before, beyond) = table.grid, table.nodes["slip_arc"]
+    place, alpha = np.linspace(-2.0, 0.0, 300)[:, np.newaxis], grid.nodes()[1]
+    log_g = grid.log_g_of(place, alpha)
+    log_alpha = np.broadcast_to(alpha, log_g.shape)
+    x = log_g - process.limits.log_touch(log_alpha)
+    known = (x < -2.0 * process.touch_error) & (np.exp(alpha) < 6.6)  # touched within the range
+    exact = _function(process, "slip_arc", log_g, log_alpha, past=False)
+    through = before.copy()
+    through[-1] = exact[-1]  # as if the cubics went through the value at the touch itself
+
+    def off(nodes):
+        cells = CellTable(grid, {"slip_arc": (nodes, beyond)})
+        values = cells.at(("slip_arc",), log_g[known] - 1e-12, log_alpha[known])[1][0]
+        return np.max(np.abs(values / exact[known] - 1.0))
+
+    assert off(before) < 0.5 * off(through)
+    assert off(before) < 0.03
 
 
 def test_the_formula_has_twelve_constants_and_the_limits_it_claims(installed):

@@ -3,12 +3,13 @@
 import hashlib
 import json
 import shutil
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_up import ALPHAS, G, slip_truth, truth
 
-from fe_training.campaign.dataset import load_campaign, write_campaign
+from fe_training.campaign.dataset import Table, load_campaign, write_campaign
 from fe_training.campaign.design import CampaignDesign, Configuration, Denser
 from fe_training.campaign.design_file import read_design
 from fe_training.campaign.store import Row
@@ -148,6 +149,23 @@ def test_what_continues_the_models_is_held_against_solutions_above_the_highest_g
     assert np.all(np.isinf(cells[1:]))
     assert np.isinf(cells[0][0])  # up to alpha = 3 it depends on the size of the tip
     assert "| table | 5 to 9 | up to 1.5 |" in (made / "model-card.md").read_text()
+
+
+def test_points_hardly_doubted_judge_models_with_their_doubts_in_their_errors(made):
+    data = load_campaign(made / "off-grid.h5")
+    points, reasons = dict(data.points.columns), np.array(data.points["reason"], dtype="U99")
+    points["use"], points["force_mismatch"] = data.points["use"].copy(), np.zeros(len(reasons))
+    points["use"][:4] = False
+    points["force_mismatch"][:4] = 3e-3, 0.03, 3e-3, 3e-3
+    reasons[:2] = "|J - 2 F_h|/J is above its bound (3.0e-03)"
+    reasons[2] = reasons[0] + "; A differs between the meshes (0.02)"
+    reasons[3] = "the path to the configuration stalled"
+    doubted = SimpleNamespace(points=Table({**points, "reason": reasons}, {}, {}))
+    used, judging = points_of(doubted), points_of(doubted, doubtful=0.01)
+    assert len(judging) == len(used) + 1
+    here = (judging.g == points["g"][0]) & (judging.alpha == points["alpha"][0])
+    assert judging.normal_load_std[here] >= 3e-3
+    assert judging.mesh_variance("normal_load")[here] < 1e-5
 
 
 def test_the_card_has_every_table_and_no_gap(made):

@@ -6,11 +6,11 @@ import re
 
 from surrogate.errors import InputError
 from surrogate.reading.forms.gauges import gauge_diameter, is_gauge
-from surrogate.reading.headings import bare, meaning, split_unit
+from surrogate.reading.headings import bare, split_unit
 from surrogate.reading.sheet import EMPTY, Row, Sheet
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE
 from surrogate.reading.words.spelling import plain
-from surrogate.reading.words.wire_words import COLUMNS, WORDS
+from surrogate.reading.words.wire_words import COLUMNS, WORDS, is_force, means
 
 __all__ = ["tidied"]
 
@@ -43,7 +43,7 @@ def tidied(
         place = f"{sheet.place(header)}, column {column + 1} ({names[column]})"
         unit = _unit_apart(place, rows, column, names[column])
         below[column] = unit or below[column]
-        if errors and _is_force(names[column]):
+        if errors and is_force(names[column]):
             text = split_unit(names[column], WORDS)[1] or below[column]
             names.append(f"± [{text}]")
             below.append(text)
@@ -65,7 +65,7 @@ def _gauges(
     """Put diameters in place of numbers of the American wire gauge."""
     column = next((i for i, name in enumerate(names) if is_gauge(name, below[i])), None)
     if column is None or any(
-        _means(name, "wire_diameter", "wire_radius") for name in names[:column]
+        means(name, "wire_diameter", "wire_radius") for name in names[:column]
     ):
         return []
     told: dict[str, float] = {}
@@ -84,7 +84,7 @@ def _errors_of_forces(
     sheet: Sheet, names: list[str], below: list[str], rows: list[list[str]]
 ) -> list[str]:
     """Give errors of forces that have no unit that of the force, and percents their force."""
-    forces = [i for i, name in enumerate(names) if _is_force(name)]
+    forces = [i for i, name in enumerate(names) if is_force(name)]
     if len(forces) != 1:
         return []
     (force,) = forces
@@ -93,13 +93,13 @@ def _errors_of_forces(
     for column, name in enumerate(names):
         base, stated = split_unit(name, WORDS)
         stated = stated if stated is not None else bare(below[column])
-        if stated == "" and _means(name, "force_std"):
+        if stated == "" and means(name, "force_std"):
             below[column] = unit
             notes.append(
                 f"{sheet.file}: column {column + 1} ({name}) has no unit and is taken in that of "
                 f"{names[force]}"
             )
-        elif stated == "%" and (_means(name, "force_std") or plain(base) in _RELATIVE):
+        elif stated == "%" and (means(name, "force_std") or plain(base) in _RELATIVE):
             for cells in rows:
                 _take_percents(sheet, cells, column, force)
             kind = "sd" if plain(base) in _RELATIVE else base
@@ -120,15 +120,6 @@ def _known(unit: str) -> bool:
     return unit != "" and any(kind.unit(unit) for kind in (LENGTH, FORCE, LINE_FORCE))
 
 
-def _means(name: str, *quantities: str) -> bool:
-    meanings, _ = meaning(split_unit(name, WORDS)[0], WORDS)
-    return any(quantity in quantities for quantity, _ in meanings)
-
-
-def _is_force(name: str) -> bool:
-    return _means(name, "force", "force_per_thickness")
-
-
 def _errors_apart(rows: list[list[str]], column: int) -> list[str]:
     """Take what stands behind ± out of a column and return it; nothing where nothing does."""
     matches = [_WITH_ERROR.fullmatch("".join(row[column : column + 1])) for row in rows]
@@ -146,7 +137,7 @@ def _unit_apart(place: str, rows: list[list[str]], column: int, name: str) -> st
     cells = [row[column] for row in rows if len(row) > column and row[column]]
     matches = [_WITH_UNIT.fullmatch(cell) for cell in cells]
     units = {match[2].strip() if match else "" for match in matches}
-    if len(units) > 1 and any(map(_known, units)) and _means(name, *COLUMNS):
+    if len(units) > 1 and any(map(_known, units)) and means(name, *COLUMNS):
         listed = ", ".join(sorted(unit or "none" for unit in units))
         raise InputError(
             f"{place} has cells of several units ({listed}); write all in one, and name it behind "

@@ -110,7 +110,7 @@ def table_phrase(name: str) -> Phrase:
         return Phrase()
     if counted and {"trial", "cut"} & set(kinds) and set(kinds) <= {"trial", "cut"}:
         return Phrase("trial", True)
-    quantity = _table_quantity([kind for kind in kinds if kind != "trial"], tokens)
+    quantity = _table_quantity([kind for kind in kinds if kind != "trial"])
     if counted and quantity not in ("force", "force_per_thickness"):
         return Phrase()
     if "trial" in kinds and not counted:
@@ -118,16 +118,16 @@ def table_phrase(name: str) -> Phrase:
     return Phrase(quantity, counted)
 
 
-def _table_quantity(kinds: list[str], tokens: list[str]) -> str:
+def _table_quantity(kinds: list[str]) -> str:
     core = set(kinds) - {"of"}
     if core & {"scatter", "error"}:
         rest = core - {"scatter", "error", "standard", "cut", "steady"}
-        return "force_std" if not rest or _force_of(kinds, tokens, spread=True) else ""
+        return "force_std" if not rest or _force_of(kinds, spread=True) else ""
     if "wire" in core or core in ({"diameter"}, {"radius"}):
         return _wire_of(core)
     if core and core <= {"thickness", "sample"} and "thickness" in core:
         return "thickness"
-    return _force_of(kinds, tokens)
+    return _force_of(kinds)
 
 
 def _wire_of(core: set[str]) -> str:
@@ -138,7 +138,7 @@ def _wire_of(core: set[str]) -> str:
     return "wire_diameter" if core in across else ""
 
 
-def _force_of(kinds: list[str], tokens: list[str], spread: bool = False) -> str:
+def _force_of(kinds: list[str], spread: bool = False) -> str:
     """Return the quantity of a force by the order of the kinds of words, "" if it is none."""
     if spread:
         kinds = [kind for kind in kinds if kind not in ("scatter", "error", "standard")]
@@ -147,12 +147,7 @@ def _force_of(kinds: list[str], tokens: list[str], spread: bool = False) -> str:
     words = " ".join(kinds) + " "
     start = re.sub(r"^(?:(?:cut|steady) )+force ", "force ", words)
     per = _PER.match(start)
-    if per and start[per.end() :].strip() in (
-        "thickness",
-        "width",
-        "thickness of sample",
-        "letter",
-    ):
+    if per and start[per.end() :].strip() in _PER_SIZE:
         return "force_per_thickness"
     if "force" in kinds and set(kinds) <= _BESIDE_FORCE:
         return "force"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
-from surrogate.reading.headings import vocabulary
+from surrogate.reading.headings import meaning, split_unit, vocabulary
 from surrogate.reading.units import FORCE, LENGTH, LINE_FORCE, Dimension
 from surrogate.reading.words.phrases import table_phrase
 
-__all__ = ["COLUMNS", "COUNT", "DEVIATION", "SAMPLE", "WORDS"]
+__all__ = ["COLUMNS", "COUNT", "DEVIATION", "SAMPLE", "WORDS", "is_force", "means"]
 
 COLUMNS: dict[str, Dimension] = {
     "wire_radius": LENGTH,
@@ -94,3 +94,26 @@ SAMPLE = {
     *("试样", "样品", "試料", "試験片", "サンプル"),
 }
 """What a column that names samples is called."""
+
+
+def means(name: str, *quantities: str) -> bool:
+    """Whether the name of a column, with its unit or without, may mean one of some quantities.
+
+    Examples
+    --------
+    >>> means("wire diameter [mm]", "wire_diameter"), means("remark", *COLUMNS)
+    (True, False)
+    """
+    meanings, _ = meaning(split_unit(name, WORDS)[0], WORDS)
+    return any(quantity in quantities for quantity, _ in meanings)
+
+
+def is_force(name: str) -> bool:
+    """Whether the name of a column is that of a force.
+
+    Examples
+    --------
+    >>> is_force("Kraft (mN)"), is_force("thickness")
+    (True, False)
+    """
+    return means(name, "force", "force_per_thickness")
